@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+#include "command.h"
+
+#include <chrono>
+#include <cstdio>
+#include <memory>
+#include <mutex>
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include "sateen/core/error.h"
+
+namespace sateen::cli {
+
+CLI::App* add_command(CLI::App& parent, const std::string& name, const std::string& summary,
+                      const std::string& example) {
+  CLI::App* command = parent.add_subcommand(name, summary);
+  command->fallthrough();
+  command->footer("Example:\n  " + example);
+  return command;
+}
+
+Progress progress_bar(std::string label) {
+  if (isatty(STDERR_FILENO) == 0) return {};
+  using Clock = std::chrono::steady_clock;
+  struct State {
+    std::string label;
+    std::mutex mutex;
+    Clock::time_point start = Clock::now();
+    int shown = -1;
+  };
+  auto state = std::make_shared<State>();
+  state->label = std::move(label);
+  return [state](double fraction) {
+    const std::lock_guard lock(state->mutex);
+    const int percent = static_cast<int>(fraction * 100);
+    if (percent <= state->shown || Clock::now() - state->start < std::chrono::seconds(1)) return;
+    state->shown = percent;
+    const int filled = percent * 30 / 100;
+    fmt::print(stderr, "\r{} [{:#<{}}{:.<{}}] {:3}%", state->label, "", filled, "", 30 - filled, percent);
+    if (percent >= 100) fmt::print(stderr, "\r{:{}}\r", "", state->label.size() + 40);
+    std::fflush(stderr);
+  };
+}
+
+void print(const std::string& text) {
+  if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0) {
+    throw Error("standard output cannot be written");
+  }
+}
+
+void warn(const std::string& text) {
+  fmt::print(stderr, "sateen: warning: {}\n", text);
+}
+
+}  // namespace sateen::cli

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <cstdio>
+#include <new>
+#include <numeric>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "command.h"
+#include "commands.h"
+#include "sateen/core/error.h"
+#include "sateen/core/parallel.h"
+
+namespace {
+
+constexpr int kInputIsWrong = 1;
+constexpr int kCommandLineIsWrong = 2;
+
+std::size_t edit_distance(const std::string& a, const std::string& b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), std::size_t{0});
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    std::size_t diagonal = row[0];
+    row[0] = i;
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const std::size_t replaced = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
+      diagonal = row[j];
+      row[j] = std::min({replaced, row[j] + 1, row[j - 1] + 1});
+    }
+  }
+  return row.back();
+}
+
+/// The innermost subcommand the user named.
+const CLI::App& innermost(const CLI::App& app) {
+  const auto chosen = app.get_subcommands();
+  return chosen.empty() ? app : innermost(*chosen.front());
+}
+
+/// " Did you mean --size?" for an unknown word close to something the command knows; else empty.
+std::string suggestion(const CLI::App& app, const std::vector<std::string>& unknown) {
+  const CLI::App& command = innermost(app);
+  std::vector<std::string> known;
+  for (const CLI::App* subcommand : command.get_subcommands([](const CLI::App*) { return true; })) {
+    known.push_back(subcommand->get_name());
+  }
+  for (const CLI::App* level = &command; level != nullptr; level = level->get_parent()) {
+    for (const CLI::Option* option : level->get_options()) {
+      for (const std::string& name : option->get_lnames()) known.push_back("--" + name);
+    }
+  }
+  for (const std::string& full : unknown) {
+    const std::string word = full.substr(0, full.find('='));
+    const auto closest = std::ranges::min_element(
+        known, {}, [&](const std::string& candidate) { return edit_distance(word, candidate); });
+    if (closest != known.end() &&
+        edit_distance(word, *closest) <= std::max<std::size_t>(2, word.size() / 4)) {
+      return fmt::format(" Did you mean {}?", *closest);
+    }
+  }
+  return "";
+}
+
+int run(int argc, char** argv) {
+  using namespace sateen::cli;
+  CLI::App app(
+      "Sateen captures how anisotropic materials look, edits that look, and shows it on any 3D model.",
+      "sateen");
+  app.set_version_flag("--version", SATEEN_VERSION);
+  app.require_subcommand(1);
+  app.get_formatter()->column_width(34);
+  app.option_defaults()->always_capture_default();
+  int threads = 0;
+  app.add_option("--threads", threads, "Threads to use; 0 means all processors")
+      ->check(CLI::NonNegativeNumber);
+  app.parse_complete_callback([&] { sateen::limit_threads(threads); });
+
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() == 0) return app.exit(error);
+    std::string hint;
+    if (dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr) hint = suggestion(app, app.remaining(true));
+    fmt::print(stderr, "sateen: {}.{}\nSee --help.\n", error.what(), hint);
+    return kCommandLineIsWrong;
+  }
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return run(argc, argv);
+  } catch (const sateen::Error& error) {
+    fmt::print(stderr, "sateen: {}\n", error.what());
+  } catch (const std::bad_alloc&) {
+    fmt::print(stderr, "sateen: not enough memory\n");
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "sateen: unexpected failure, please report it: {}\n", error.what());
+  }
+  return kInputIsWrong;
+}

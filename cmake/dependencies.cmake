@@ -1,0 +1,15 @@
+# SPDX-License-Identifier: MIT
+# The system packages the library stands on; the installed package's config file includes this file too.
+find_package(Eigen3 REQUIRED)
+find_package(fmt REQUIRED)
+find_package(TBB REQUIRED)
+find_package(nlohmann_json REQUIRED)
+find_package(assimp REQUIRED)
+find_package(embree 3 REQUIRED)
+find_package(OpenCV REQUIRED COMPONENTS core imgproc imgcodecs videoio calib3d)
+find_package(PkgConfig REQUIRED)
+# OpenImageIO's own CMake config needs the tools package; pkg-config does not.
+pkg_check_modules(OIIO REQUIRED IMPORTED_TARGET OpenImageIO)
+pkg_check_modules(ZSTD REQUIRED IMPORTED_TARGET libzstd)
+pkg_check_modules(EPOXY REQUIRED IMPORTED_TARGET epoxy)
+pkg_check_modules(EGL REQUIRED IMPORTED_TARGET egl)

@@ -1,0 +1,27 @@
+# SPDX-License-Identifier: MIT
+
+# Warnings and sanitizers every target of the project is built with.
+add_library(sateen_options INTERFACE)
+target_compile_options(sateen_options INTERFACE
+  -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Wnon-virtual-dtor -Woverloaded-virtual)
+if(SATEEN_WERROR)
+  target_compile_options(sateen_options INTERFACE -Werror)
+endif()
+if(SATEEN_SANITIZE)
+  target_compile_options(sateen_options INTERFACE
+    -fsanitize=${SATEEN_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer -O1)
+  target_link_options(sateen_options INTERFACE -fsanitize=${SATEEN_SANITIZE})
+endif()
+
+# sateen_test(NAME SOURCES...): a GoogleTest program test_NAME whose cases ctest lists as NAME.Suite.Case.
+function(sateen_test name)
+  add_executable(test_${name} ${ARGN})
+  target_link_libraries(test_${name} PRIVATE sateen sateen_options sateen_test_support GTest::gtest_main GTest::gmock)
+  gtest_discover_tests(test_${name} TEST_PREFIX "${name}." DISCOVERY_MODE PRE_TEST PROPERTIES TIMEOUT 300)
+endfunction()
+
+# sateen_bench(NAME SOURCES...): a Google Benchmark program bench_NAME.
+function(sateen_bench name)
+  add_executable(bench_${name} ${ARGN})
+  target_link_libraries(bench_${name} PRIVATE sateen sateen_options sateen_test_support benchmark::benchmark_main)
+endfunction()

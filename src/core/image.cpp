@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: MIT
+#include "sateen/core/image.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "sateen/core/parallel.h"
+
+namespace sateen {
+namespace {
+
+/// The input pixels, first .. first + weights.size(), that one output pixel averages along an axis.
+struct Footprint {
+  int first = 0;
+  std::vector<float> weights;
+};
+
+std::vector<Footprint> footprints(int from, int to) {
+  std::vector<Footprint> result(static_cast<std::size_t>(to));
+  const double scale = static_cast<double>(from) / to;
+  for (int i = 0; i < to; ++i) {
+    Footprint& footprint = result[static_cast<std::size_t>(i)];
+    if (scale >= 1) {
+      const double begin = i * scale;
+      const double end = (i + 1) * scale;
+      footprint.first = static_cast<int>(begin);
+      const int last = std::min(from, static_cast<int>(std::ceil(end - 1e-9)));
+      for (int x = footprint.first; x < last; ++x) {
+        const double covered = std::min(end, x + 1.0) - std::max(begin, static_cast<double>(x));
+        footprint.weights.push_back(static_cast<float>(covered / scale));
+      }
+    } else {
+      const double centre = std::clamp((i + 0.5) * scale - 0.5, 0.0, from - 1.0);
+      footprint.first = std::min(static_cast<int>(centre), std::max(0, from - 2));
+      const double fraction = centre - footprint.first;
+      footprint.weights = {static_cast<float>(1 - fraction)};
+      if (from > 1) footprint.weights.push_back(static_cast<float>(fraction));
+    }
+  }
+  return result;
+}
+
+}  // namespace
+
+Image::Image(int width_, int height_, int channels_, float value)
+    : width(width_),
+      height(height_),
+      channels(channels_),
+      data(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_) *
+               static_cast<std::size_t>(channels_),
+           value) {}
+
+Vec3f Image::rgb(int x, int y) const {
+  const float* p = data.data() + index(x, y);
+  return channels >= 3 ? Vec3f(p[0], p[1], p[2]) : Vec3f(p[0], p[0], p[0]);
+}
+
+void Image::set_rgb(int x, int y, const Vec3f& value) {
+  float* p = data.data() + index(x, y);
+  for (int c = 0; c < std::min(channels, 3); ++c) p[c] = value[c];
+}
+
+Image with_channels(const Image& image, int channels) {
+  if (channels == image.channels) return image;
+  Image result(image.width, image.height, channels, 1);
+  const bool grey = image.channels < 3;
+  for (int y = 0; y < image.height; ++y) {
+    for (int x = 0; x < image.width; ++x) {
+      const auto in = image.pixel(x, y);
+      const auto out = result.pixel(x, y);
+      for (std::size_t c = 0; c < out.size(); ++c) {
+        if (grey && c < 3) {
+          out[c] = in[0];
+        } else if (c == 3 && image.channels == 2) {
+          out[c] = in[1];
+        } else if (c < in.size()) {
+          out[c] = in[c];
+        }
+      }
+    }
+  }
+  return result;
+}
+
+Image resized(const Image& image, int width, int height) {
+  if (width == image.width && height == image.height) return image;
+  const auto columns = footprints(image.width, width);
+  const auto rows = footprints(image.height, height);
+  Image narrow(width, image.height, image.channels);
+  parallel_for(image.height, [&](int y) {
+    for (int x = 0; x < width; ++x) {
+      const Footprint& column = columns[static_cast<std::size_t>(x)];
+      const auto out = narrow.pixel(x, y);
+      for (std::size_t i = 0; i < column.weights.size(); ++i) {
+        const auto in = image.pixel(column.first + static_cast<int>(i), y);
+        for (std::size_t c = 0; c < out.size(); ++c) out[c] += column.weights[i] * in[c];
+      }
+    }
+  });
+  Image result(width, height, image.channels);
+  parallel_for(height, [&](int y) {
+    const Footprint& row = rows[static_cast<std::size_t>(y)];
+    float* out = result.data.data() + result.index(0, y);
+    const std::size_t n = static_cast<std::size_t>(width) * static_cast<std::size_t>(image.channels);
+    for (std::size_t i = 0; i < row.weights.size(); ++i) {
+      const float* in = narrow.data.data() + narrow.index(0, row.first + static_cast<int>(i));
+      for (std::size_t j = 0; j < n; ++j) out[j] += row.weights[i] * in[j];
+    }
+  });
+  return result;
+}
+
+void sample_bilinear(const Image& image, double x, double y, std::span<double> out) {
+  const double cx = std::clamp(x - 0.5, 0.0, image.width - 1.0);
+  const double cy = std::clamp(y - 0.5, 0.0, image.height - 1.0);
+  const int x0 = static_cast<int>(cx);
+  const int y0 = static_cast<int>(cy);
+  const int x1 = std::min(x0 + 1, image.width - 1);
+  const int y1 = std::min(y0 + 1, image.height - 1);
+  const double fx = cx - x0;
+  const double fy = cy - y0;
+  const auto a = image.pixel(x0, y0);
+  const auto b = image.pixel(x1, y0);
+  const auto c = image.pixel(x0, y1);
+  const auto d = image.pixel(x1, y1);
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    const double top = a[i] + fx * (static_cast<double>(b[i]) - a[i]);
+    const double bottom = c[i] + fx * (static_cast<double>(d[i]) - c[i]);
+    out[i] = top + fy * (bottom - top);
+  }
+}
+
+}  // namespace sateen

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+#include "sateen/core/parallel.h"
+
+#include <memory>
+
+#include <tbb/global_control.h>
+#include <tbb/parallel_for.h>
+
+namespace sateen {
+
+void parallel_for(int count, const std::function<void(int)>& body) {
+  tbb::parallel_for(0, count, body);
+}
+
+void limit_threads(int threads) {
+  static std::unique_ptr<tbb::global_control> control;
+  control.reset();
+  if (threads > 0) {
+    control = std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism,
+                                                    static_cast<std::size_t>(threads));
+  }
+}
+
+}  // namespace sateen

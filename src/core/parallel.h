@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <functional>
+
+namespace sateen {
+
+/// Calls body(i) for every i in [0, count), on as many threads as limit_threads allows, in no particular
+/// order. An exception thrown by a body is rethrown here once the others have stopped.
+void parallel_for(int count, const std::function<void(int)>& body);
+
+/// Bounds the threads of every later parallel_for in this process; 0 means all processors.
+void limit_threads(int threads);
+
+}  // namespace sateen

@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: MIT
+#include "sateen/io/file.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cctype>
+#include <cerrno>
+#include <fstream>
+#include <system_error>
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include "sateen/core/error.h"
+
+namespace sateen {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// frame_2 before frame_10: runs of digits compare as numbers, everything else as characters.
+bool natural_less(const std::string& a, const std::string& b) {
+  std::size_t i = 0;
+  std::size_t j = 0;
+  const auto digit = [](char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; };
+  while (i < a.size() && j < b.size()) {
+    if (digit(a[i]) && digit(b[j])) {
+      const auto number = [&](const std::string& s, std::size_t& at) {
+        while (at < s.size() && s[at] == '0') ++at;
+        const std::size_t begin = at;
+        while (at < s.size() && digit(s[at])) ++at;
+        return s.substr(begin, at - begin);
+      };
+      const std::string x = number(a, i);
+      const std::string y = number(b, j);
+      if (x != y) return x.size() != y.size() ? x.size() < y.size() : x < y;
+    } else {
+      if (a[i] != b[j]) return a[i] < b[j];
+      ++i;
+      ++j;
+    }
+  }
+  if ((i < a.size()) != (j < b.size())) return j < b.size();
+  return a < b;
+}
+
+[[noreturn]] void fail_errno(const char* verb, const fs::path& path) {
+  throw Error(fmt::format("{}: cannot {}: {}", path.string(), verb, std::generic_category().message(errno)));
+}
+
+}  // namespace
+
+void write_atomically(const fs::path& target, const std::function<void(const fs::path&)>& write) {
+  static std::atomic<unsigned> counter{0};
+  const fs::path folder = target.has_parent_path() ? target.parent_path() : fs::path(".");
+  std::error_code code;
+  if (!fs::is_directory(folder, code)) {
+    throw Error(
+        fmt::format("{}: cannot be written: the folder {} does not exist", target.string(), folder.string()));
+  }
+  if (fs::is_directory(target, code))
+    throw Error(fmt::format("{}: cannot be written: it is a folder", target.string()));
+  if (access(folder.c_str(), W_OK) != 0) fail_errno("write", target);
+  const fs::path temporary = folder / fmt::format(".{}.{}-{}{}", target.stem().string(), getpid(), counter++,
+                                                  target.extension().string());
+  try {
+    write(temporary);
+    fs::rename(temporary, target);
+  } catch (const fs::filesystem_error& error) {
+    fs::remove(temporary, code);
+    throw Error(fmt::format("{}: cannot be written: {}", target.string(), error.code().message()));
+  } catch (...) {
+    fs::remove(temporary, code);
+    throw;
+  }
+}
+
+void write_bytes(const fs::path& target, std::span<const std::byte> bytes) {
+  write_atomically(target, [&](const fs::path& temporary) {
+    const int file = open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+    if (file < 0) fail_errno("write", target);
+    std::size_t done = 0;
+    while (done < bytes.size()) {
+      const ssize_t n = ::write(file, bytes.data() + done, bytes.size() - done);
+      if (n < 0 && errno == EINTR) continue;
+      if (n < 0) {
+        const int reason = errno;
+        close(file);
+        errno = reason;
+        fail_errno("write", target);
+      }
+      done += static_cast<std::size_t>(n);
+    }
+    if (close(file) != 0) fail_errno("write", target);
+  });
+}
+
+void write_text(const fs::path& target, const std::string& text) {
+  write_bytes(target, std::as_bytes(std::span(text.data(), text.size())));
+}
+
+std::vector<std::byte> read_bytes(const fs::path& path) {
+  std::error_code code;
+  if (!fs::exists(path, code)) throw Error(fmt::format("{}: no such file", path.string()));
+  if (fs::is_directory(path, code))
+    throw Error(fmt::format("{}: is a folder, a file is needed", path.string()));
+  std::ifstream file(path, std::ios::binary | std::ios::ate);
+  if (!file) fail_errno("read", path);
+  std::vector<std::byte> bytes(static_cast<std::size_t>(file.tellg()));
+  file.seekg(0);
+  file.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+  if (!file) fail_errno("read", path);
+  return bytes;
+}
+
+std::string read_text(const fs::path& path) {
+  const std::vector<std::byte> bytes = read_bytes(path);
+  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
+std::vector<fs::path> expand_inputs(const std::vector<fs::path>& inputs,
+                                    std::span<const std::string> extensions) {
+  std::vector<fs::path> files;
+  for (const fs::path& input : inputs) {
+    std::error_code code;
+    if (!fs::exists(input, code)) throw Error(fmt::format("{}: no such file or folder", input.string()));
+    if (!fs::is_directory(input, code)) {
+      files.push_back(input);
+      continue;
+    }
+    std::vector<fs::path> found;
+    for (const auto& entry : fs::directory_iterator(input)) {
+      const bool hidden = entry.path().filename().string().starts_with('.');
+      if (!hidden && entry.is_regular_file() &&
+          std::ranges::find(extensions, extension_of(entry.path())) != extensions.end()) {
+        found.push_back(entry.path());
+      }
+    }
+    if (found.empty()) {
+      throw Error(fmt::format("{}: no files here end in {}", input.string(), fmt::join(extensions, ", ")));
+    }
+    std::ranges::sort(
+        found, [](const fs::path& a, const fs::path& b) { return natural_less(a.string(), b.string()); });
+    files.insert(files.end(), found.begin(), found.end());
+  }
+  return files;
+}
+
+std::string extension_of(const fs::path& path) {
+  std::string extension = path.extension().string();
+  std::ranges::transform(extension, extension.begin(),
+                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return extension;
+}
+
+}  // namespace sateen

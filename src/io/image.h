@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "sateen/core/image.h"
+
+namespace sateen {
+
+/// How the colour channels of a picture file are encoded.
+enum class Encoding {
+  automatic,  ///< integer samples (PNG, JPEG, TIFF) are sRGB, float samples (EXR, HDR, float TIFF) linear
+  linear,
+  srgb,
+};
+
+struct ReadImageOptions {
+  Encoding encoding = Encoding::automatic;
+  bool allow_non_finite = false;  ///< otherwise a NaN or infinity is an Error that names the pixel
+};
+
+/// What a file says of itself, without decoding its pixels.
+struct ImageInfo {
+  int width = 0;
+  int height = 0;
+  int channels = 0;
+  int bits = 8;           ///< per sample
+  bool floating = false;  ///< float samples: linear unless told otherwise
+};
+
+/// Extensions of the picture files that can be read, lower case with the dot.
+std::span<const std::string> image_extensions();
+
+/// Throws Error when the file is missing or no picture.
+ImageInfo read_image_info(const std::filesystem::path& path);
+
+/// A picture as linear floats with 1 to 4 channels; colour is multiplied by alpha (associated) where there is
+/// alpha. Of a file with named layers the first four channels are read. Rotated by EXIF orientation. Throws
+/// Error when the file is missing, truncated, corrupt, animated or CMYK, larger than its bytes can hold, or
+/// not finite.
+Image read_image(const std::filesystem::path& path, const ReadImageOptions& options = {});
+
+/// A picture that holds data (normals, directions, roughness): samples as stored, integers scaled to [0, 1],
+/// no colour conversion and no multiplication by alpha. Throws as read_image.
+Image read_data(const std::filesystem::path& path, bool allow_non_finite = false);
+
+/// Writes by extension: .png (8 bit), .jpg, .tif as sRGB, clamped to [0, 1], alpha unassociated; .exr as half
+/// and .hdr linear. Atomic. Throws Error for another extension and when the file cannot be written.
+void write_image(const std::filesystem::path& path, const Image& image);
+
+/// Writes samples as they are: .exr as 32-bit float, .png as 16 bit clamped to [0, 1]. Atomic. Throws as
+/// write_image.
+void write_data(const std::filesystem::path& path, const Image& image);
+
+/// One EXR with the channels NAME.R, NAME.G, NAME.B (and .A) for each layer, half float, linear. Atomic.
+/// Throws Error when the layers differ in size or the file cannot be written.
+struct ImageLayer {
+  std::string name;
+  Image image;
+};
+void write_layers(const std::filesystem::path& path, std::span<const ImageLayer> layers);
+
+}  // namespace sateen

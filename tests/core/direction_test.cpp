@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: MIT
+#include "sateen/core/direction.h"
+
+#include <random>
+
+#include <gtest/gtest.h>
+
+namespace sateen {
+namespace {
+
+Vec3 random_unit(std::mt19937& random) {
+  std::normal_distribution<double> normal;
+  return Vec3(normal(random), normal(random), normal(random)).normalized();
+}
+
+TEST(Direction, TheTopRowOfAPictureFacesUp) {
+  EXPECT_GT(disc_of_pixel(64, 0, 128).y(), 0.98);
+  EXPECT_LT(disc_of_pixel(0, 64, 128).x(), -0.98);
+  const Vec2 disc = disc_of_pixel(17, 93, 128);
+  EXPECT_TRUE(pixel_of_disc(disc, 128).isApprox(Vec2(17.5, 93.5)));
+}
+
+TEST(Direction, TangentAngleCountsTurnsCounterClockwise) {
+  EXPECT_DOUBLE_EQ(tangent_angle({1, 0, 0}), 0);
+  EXPECT_DOUBLE_EQ(tangent_angle({0, 1, 0.5}), 0.25);
+  EXPECT_DOUBLE_EQ(tangent_angle({-1, 0, 0}), 0.5);
+  EXPECT_DOUBLE_EQ(tangent_angle({0, -2, 0}), 0.75);
+  EXPECT_LT(tangent_angle({1, -1e-30, 0}), 1);
+}
+
+TEST(Direction, EyeFrameIsARotationThatTakesTheViewRayToZ) {
+  std::mt19937 random(1);
+  for (int i = 0; i < 200; ++i) {
+    const Vec3 view = random_unit(random);
+    const Mat3 frame = eye_frame(view);
+    EXPECT_LT((frame * view - Vec3::UnitZ()).norm(), 1e-12);
+    EXPECT_LT((frame * frame.transpose() - Mat3::Identity()).norm(), 1e-12);
+    EXPECT_NEAR(frame.determinant(), 1, 1e-12);
+  }
+}
+
+TEST(Direction, Equation4AgreesWithTheRotationAlongOneAxisAndLeavesTheDiscInCorners) {
+  // With p_y = 0 the paper's formula is the rotation about y; in the corner of a wide view it is not one.
+  const Vec3 position(0.4, 0, -1);
+  const Vec3 normal = Vec3(0.3, 0.1, 0.9).normalized();
+  const Vec3 rotated = eye_frame(-position.normalized()) * normal;
+  EXPECT_NEAR(perspective_equation4(normal, position).x(), rotated.x(), 1e-12);
+  const Vec3 corner(1.03, 0.58, -1);
+  int outside = 0;
+  std::mt19937 random(3);
+  for (int i = 0; i < 2000; ++i) {
+    const Vec3 seen = random_unit(random);
+    if (seen.dot(-corner) <= 0) continue;
+    EXPECT_LE((eye_frame(-corner.normalized()) * seen).head<2>().norm(), 1 + 1e-12);
+    outside += perspective_equation4(seen, corner).head<2>().norm() > 1 ? 1 : 0;
+  }
+  EXPECT_GT(outside, 100);
+}
+
+TEST(Direction, FrameAroundIsOrthonormal) {
+  std::mt19937 random(2);
+  for (int i = 0; i < 200; ++i) {
+    const Vec3 n = random_unit(random);
+    Vec3 t;
+    Vec3 b;
+    frame_around(n, t, b);
+    Mat3 m;
+    m << t, b, n;
+    EXPECT_LT((m * m.transpose() - Mat3::Identity()).norm(), 1e-12);
+    EXPECT_NEAR(m.determinant(), 1, 1e-12);
+  }
+}
+
+TEST(Direction, WrapStaysBelowThePeriod) {
+  EXPECT_DOUBLE_EQ(wrap(-0.25), 0.75);
+  EXPECT_LT(wrap(-1e-18), 1);
+  EXPECT_NEAR(wrap(1.3, 0.5), 0.3, 1e-15);
+}
+
+}  // namespace
+}  // namespace sateen
