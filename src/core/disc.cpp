@@ -2,59 +2,52 @@
 #include "sateen/core/disc.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "sateen/core/parallel.h"
 
 namespace sateen {
-namespace {
 
-/// Texel (x, y) relative to the disc's centre, in units of half a texel: whole numbers, so that "inside" is
-/// exact.
-bool is_inside(int x, int y, int size) {
-  const long dx = 2L * x + 1 - size;
-  const long dy = 2L * y + 1 - size;
-  return dx * dx + dy * dy <= static_cast<long>(size) * size;
+bool inside_disc(int x, int y, int size, double inset) {
+  const double half = size / 2.0;
+  const double outer_corner = std::hypot(std::abs(x + 0.5 - half) + 0.5, std::abs(y + 0.5 - half) + 0.5);
+  return outer_corner <= half - inset;
 }
 
-}  // namespace
-
-void fill_from_rim(Image& picture) {
-  const int size = picture.width;
-  const double radius = size / 2.0;
-  // A texel diagonal inside the rim, at least one of the four texels around a point is inside the disc.
-  const double reach = std::max(0.0, radius - std::sqrt(0.5));
-  const Image original = picture;
-  parallel_for(picture.height, [&](int y) {
+void fill_from_rim(Image& image, double inset) {
+  const int size = image.width;
+  if (size < 4) return;
+  const std::size_t channels = static_cast<std::size_t>(image.channels);
+  // Colours of trusted pixels with a last channel of 1, all others 0: sampling and dividing ignores the background.
+  Image trusted(size, size, image.channels + 1);
+  parallel_for(size, [&](int y) {
     for (int x = 0; x < size; ++x) {
-      if (is_inside(x, y, size)) continue;
-      const double dx = x + 0.5 - radius;
-      const double dy = y + 0.5 - radius;
-      const double scale = reach / std::hypot(dx, dy);
-      const double px = radius + dx * scale - 0.5;
-      const double py = radius + dy * scale - 0.5;
-      const int x0 = static_cast<int>(std::floor(px));
-      const int y0 = static_cast<int>(std::floor(py));
-      double total = 0;
-      std::array<double, 4> sum{};
-      for (int j = 0; j < 2; ++j) {
-        for (int i = 0; i < 2; ++i) {
-          const int sx = x0 + i;
-          const int sy = y0 + j;
-          if (sx < 0 || sy < 0 || sx >= size || sy >= size || !is_inside(sx, sy, size)) continue;
-          const double weight = (1 - std::abs(px - sx)) * (1 - std::abs(py - sy));
-          total += weight;
-          const auto texel = original.pixel(sx, sy);
-          for (std::size_t c = 0; c < texel.size() && c < sum.size(); ++c) sum[c] += weight * texel[c];
-        }
-      }
-      if (total <= 0) continue;
-      const auto out = picture.pixel(x, y);
-      for (std::size_t c = 0; c < out.size() && c < sum.size(); ++c)
-        out[c] = static_cast<float>(sum[c] / total);
+      if (!inside_disc(x, y, size, inset)) continue;
+      const auto out = trusted.pixel(x, y);
+      std::ranges::copy(image.pixel(x, y), out.begin());
+      out[channels] = 1;
     }
   });
+  const double half = size / 2.0;
+  // One pixel inside the trusted rim: of the four pixels a sample there blends, the inner one is always trusted.
+  const double source_radius = half - inset - 1;
+  parallel_for(size, [&](int y) {
+    std::vector<double> sample(channels + 1);
+    for (int x = 0; x < size; ++x) {
+      if (trusted.pixel(x, y)[channels] > 0) continue;
+      const double dx = x + 0.5 - half;
+      const double dy = y + 0.5 - half;
+      const double scale = source_radius / std::hypot(dx, dy);
+      sample_bilinear(trusted, half + dx * scale, half + dy * scale, sample);
+      const auto out = image.pixel(x, y);
+      for (std::size_t c = 0; c < channels; ++c) out[c] = static_cast<float>(sample[c] / sample[channels]);
+    }
+  });
+}
+
+Image resized_disc(Image image, int size, double inset) {
+  fill_from_rim(image, inset);
+  return resized(image, size, size);
 }
 
 }  // namespace sateen
