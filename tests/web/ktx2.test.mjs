@@ -98,7 +98,10 @@ function checkWithKtxParse(file, expected) {
 
   const { KTXwriter, ...metadata } = container.keyValue;
   assert.match(KTXwriter, /^Sateen \d+\.\d+\.\d+$/);
-  assert.deepEqual(metadata, {
+  // ktx-parse reads the keys of the specification as text and gives the bytes of others, the final zero included.
+  const text = (value) => typeof value === 'string' ? value : new TextDecoder().decode(value).replace(/\0$/, '');
+  const texts = Object.fromEntries(Object.entries(metadata).map(([key, value]) => [key, text(value)]));
+  assert.deepEqual(texts, {
     KTXorientation: expected.size[2] === 0 ? 'rd' : 'rdi', 'sateen.symmetry': '2', 'étoffe': 'soie',
   });
 
