@@ -6,7 +6,6 @@
 #include <filesystem>
 #include <fstream>
 #include <map>
-#include <memory>
 
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
@@ -77,6 +76,17 @@ void read_file(benchmark::State& state, const std::string& extension) {
   count(state);
 }
 
+// What a renderer waits for: the mesh with normals and tangents.
+void read_and_prepare(benchmark::State& state, const std::string& extension) {
+  const fs::path& path = file_of(extension, state.range(0));
+  for (auto _ : state) {
+    Model model = read_model(path);
+    compute_tangents(model.mesh);
+    benchmark::DoNotOptimize(model.mesh.tangents.data());
+  }
+  count(state);
+}
+
 void read_file_bytes(benchmark::State& state, const std::string& extension) {
   const fs::path& path = file_of(extension, state.range(0));
   for (auto _ : state) benchmark::DoNotOptimize(read_bytes(path));
@@ -124,6 +134,8 @@ BENCHMARK_CAPTURE(read_file_bytes, ply, ".ply")->Apply(up_to_ten_million);
 BENCHMARK_CAPTURE(read_file, ply, ".ply")->Apply(up_to_ten_million);
 BENCHMARK_CAPTURE(read_file_bytes, obj, ".obj")->Apply(small_and_large);
 BENCHMARK_CAPTURE(read_file, obj, ".obj")->Apply(small_and_large);
+BENCHMARK_CAPTURE(read_and_prepare, ply, ".ply")->Apply(up_to_ten_million);
+BENCHMARK_CAPTURE(read_and_prepare, obj, ".obj")->Apply(up_to_ten_million);
 BENCHMARK(normals)->Apply(up_to_ten_million);
 BENCHMARK(tangents)->Apply(up_to_ten_million);
 BENCHMARK(curvature)->Apply(small_and_large);
