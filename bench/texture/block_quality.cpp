@@ -22,15 +22,15 @@ using namespace sateen;
 struct Encoder {
   const char* name;
   BlockFormat format;
-  Bc7Options::Effort effort;
+  Bc7Effort effort;
   std::size_t channels;
 };
 
 constexpr Encoder kEncoders[] = {{"bc1", BlockFormat::bc1, {}, 3},
                                  {"bc5", BlockFormat::bc5, {}, 2},
-                                 {"bc7 fast", BlockFormat::bc7, Bc7Options::Effort::fast, 3},
-                                 {"bc7 normal", BlockFormat::bc7, Bc7Options::Effort::normal, 3},
-                                 {"bc7 best", BlockFormat::bc7, Bc7Options::Effort::best, 3}};
+                                 {"bc7 fast", BlockFormat::bc7, Bc7Effort::fast, 3},
+                                 {"bc7 normal", BlockFormat::bc7, Bc7Effort::normal, 3},
+                                 {"bc7 best", BlockFormat::bc7, Bc7Effort::best, 3}};
 
 void measure(const std::filesystem::path& path) {
   const Image image = read_data(path);

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "sateen/texture/anisotropy.h"
 
-#include <algorithm>
+#include <fmt/format.h>
+
+#include "sateen/core/error.h"
 
 namespace sateen {
 namespace {
@@ -57,6 +59,16 @@ Mat2 guarded(const Mat2& s) {
   if (!below && !above) return s;
   const Eigen2 e = eigenvalues(s);
   return symmetric(std::clamp(e.large, kMinEigenvalue, 1.0), std::clamp(e.small, kMinEigenvalue, 1.0), e.angle);
+}
+
+AnisotropyEncoding anisotropy_encoding_from_name(const std::string& name) {
+  if (name == "root") return AnisotropyEncoding::root;
+  if (name == "correlation") return AnisotropyEncoding::correlation;
+  throw Error(fmt::format("unknown encoding {}: use root or correlation", name));
+}
+
+std::string name_of(AnisotropyEncoding encoding) {
+  return encoding == AnisotropyEncoding::root ? "root" : "correlation";
 }
 
 Vec3 encode_anisotropy(const Mat2& s, AnisotropyEncoding encoding) {

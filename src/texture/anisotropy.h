@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <cmath>
+#include <string>
 
 #include "sateen/core/vector.h"
 
@@ -40,6 +42,10 @@ enum class AnisotropyEncoding {
   correlation,  ///< the slides' [sqrt(Sxx), Sxy / (2 sqrt(Sxx Syy)) + 1/2, sqrt(Syy)]
   root,         ///< the matrix square root Q = S2^(1/2), whose eigenvalues are the alphas: [Qxx, Qxy + 1/2, Qyy]
 };
+
+/// Names as at the command line and in files: correlation, root. Throws Error for another.
+AnisotropyEncoding anisotropy_encoding_from_name(const std::string& name);
+std::string name_of(AnisotropyEncoding encoding);
 
 /// Channels in [0, 1] of a positive matrix (guarded first).
 Vec3 encode_anisotropy(const Mat2& s, AnisotropyEncoding encoding);

@@ -503,7 +503,6 @@ void write(BlockCode code, std::span<std::byte, 16> out) {
 }  // namespace
 
 void encode_bc7_block(const BlockRgba8& block, const Bc7Options& options, std::span<std::byte, 16> out) {
-  using Effort = Bc7Options::Effort;
   Planes texels{};
   bool alpha = false;
   for (std::size_t i = 0; i < 16; ++i) {
@@ -514,18 +513,18 @@ void encode_bc7_block(const BlockRgba8& block, const Bc7Options& options, std::s
   // An opaque block whose alpha is data must decode to 255 exactly; mode 6 then fits four channels.
   const bool exact_alpha = options.alpha;
   // Where the mean squared error is below 1/2 (51 dB), other modes are not worth their time.
-  const float enough = options.effort == Effort::best ? 0.0f : 24.0f;
+  const float enough = options.effort == Bc7Effort::best ? 0.0f : 24.0f;
   const auto good_enough = [&](const BlockCode& code) { return code.error <= enough; };
-  const bool thorough = options.effort == Effort::best;
+  const bool thorough = options.effort == Bc7Effort::best;
 
   BlockCode best;
   try_mode6(texels, exact_alpha, thorough, best);
   for (int rotation = exact_alpha ? 0 : 1; rotation < 4 && !good_enough(best); ++rotation) {
     try_rotation(texels, exact_alpha, 5, rotation, 0, thorough, best);
   }
-  if (options.effort != Effort::fast && !good_enough(best)) {
+  if (options.effort != Bc7Effort::fast && !good_enough(best)) {
     auto guesses = guess_partitions(texels, alpha ? 4 : 3);
-    const std::size_t tries = options.effort == Effort::best ? 16 : 3;
+    const std::size_t tries = options.effort == Bc7Effort::best ? 16 : 3;
     std::ranges::partial_sort(guesses, guesses.begin() + static_cast<std::ptrdiff_t>(tries), {},
                               &PartitionGuess::residual);
     for (std::size_t i = 0; i < tries && guesses[i].residual < best.error; ++i) {
@@ -537,7 +536,7 @@ void encode_bc7_block(const BlockRgba8& block, const Bc7Options& options, std::s
       }
     }
   }
-  if (options.effort == Effort::best && !good_enough(best)) {
+  if (options.effort == Bc7Effort::best && !good_enough(best)) {
     for (int rotation = 0; rotation < 4; ++rotation) {
       for (int index_mode = 0; index_mode < 2; ++index_mode) {
         try_rotation(texels, exact_alpha, 4, rotation, index_mode, thorough, best);

@@ -11,13 +11,14 @@ namespace sateen {
 /// A 4 x 4 block of 8-bit RGBA, row by row.
 using BlockRgba8 = std::array<std::array<std::uint8_t, 4>, 16>;
 
+enum class Bc7Effort {
+  fast,    ///< modes 6 and 5
+  normal,  ///< and modes 1 and 3 (7 with alpha), two subsets, where the block needs them
+  best,    ///< and mode 4, more partitions, all p-bits, down to the last bit
+};
+
 struct Bc7Options {
-  enum class Effort {
-    fast,    ///< modes 6 and 5
-    normal,  ///< and modes 1 and 3 (7 with alpha), two subsets, where the block needs them
-    best,    ///< and mode 4, and more partitions everywhere
-  };
-  Effort effort = Effort::normal;
+  Bc7Effort effort = Bc7Effort::normal;
   /// Whether alpha is data. Otherwise it decodes to 254 or 255 and costs no precision.
   bool alpha = false;
 };
