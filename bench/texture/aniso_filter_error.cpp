@@ -1,66 +1,154 @@
-// exploration
-#include <cstdio>
+// SPDX-License-Identifier: MIT
+// How well each filter method stands for the averaged lobes: aniso_filter_error NORMALMAP...
+// For mips 1 to 6 of every map, blocks of the map under constant lobes are filtered with each method; the filtered
+// lobe's radiance is compared with the mean over the block's texels, each with its own lobe, for 48 lights and three
+// views each. Printed: sqrt(sum of squared differences / sum of squared means), averaged over mips (and maps).
+// Normal maps hold n / 2 + 1/2, green up.
+#include <array>
+#include <filesystem>
 #include <random>
 #include <string>
 #include <vector>
+
 #include <fmt/format.h>
-#include "lobe_radiance.h"
+
+#include "sateen/core/error.h"
 #include "sateen/io/image.h"
-#include "sateen/core/parallel.h"
+#include "sateen/texture/lobe_files.h"
+#include "texture/lobe_radiance.h"
+
+namespace {
+
 using namespace sateen;
-struct Var { std::string name; };
-int main(int argc, char** argv) {
-  std::vector<AnisotropicAlpha> lobes{{.3,.1,.5},{.15,.15,0},{.5,.1,.5}};
-  constexpr int M = 10;
-  const char* names[M] = {"naive","lean","sggx","sggxvar","sggxvar-mean","sggx-mean","sggxPI","slope2var","eig(S),2var","var c=1.5"};
-  std::vector<std::pair<Vec3,Vec3>> dirs;
-  for (int i=0;i<48;++i){ double u=(i+.5)/48; double tl=std::acos(std::sqrt(1-u*.98)); double pl=i*2.399963;
-    for (double tv : {0.0,30.0,60.0}) { double pv=i*1.7+tv; double t=radians(tv);
-      dirs.push_back({Vec3(std::sin(tl)*std::cos(pl),std::sin(tl)*std::sin(pl),std::cos(tl)),Vec3(std::sin(t)*std::cos(pv),std::sin(t)*std::sin(pv),std::cos(t))}); } }
-  double total[M]{}, totalrms[M]{}, tot3[M]{}; int cells=0;
-  for (int a=1;a<argc;++a) {
-    Image img=read_data(argv[a]);
-    double mapd[M]{}, mapr[M]{}; int mc=0;
-    for (int k=1;k<=6;++k) {
-      std::mt19937 rng(5);
-      double ad[M]{}, sq[M]{}, rf=0, rf2=0;  
-      double blockrel[M]{}; 
-      int B=1<<k;
-      for (auto& lobe:lobes) { const Mat2 s2=ggx_matrix(lobe);
-      for (int b=0;b<12;++b) {
-        int x0=int(rng()%unsigned(img.width/B))*B,y0=int(rng()%unsigned(img.height/B))*B;
-        std::vector<LobeTexel> tex; int step=std::max(1,B/16);
-        for(int y=0;y<B;y+=step)for(int x=0;x<B;x+=step){ Vec3 n(img.at(x0+x,y0+y,0)*2-1,img.at(x0+x,y0+y,1)*2-1,img.at(x0+x,y0+y,2)*2-1); n.z()=std::max(n.z(),.01); n.normalize(); tex.push_back({n,s2}); }
-        Mat3 A=Mat3::Zero(),N=Mat3::Zero(); Vec3 m=Vec3::Zero();
-        FilterOptions op; 
-        float acc[4][9]{}; 
-        for(auto&t:tex){ A+=sggx_matrix(t.normal,t.s)-t.normal*t.normal.transpose(); N+=t.normal*t.normal.transpose(); m+=t.normal;
-          for(int q=0;q<4;++q){ op.method=FilterMethod(q); float mm[9]{}; pack_moments(t,op,std::span<float,9>(mm)); for(int i=0;i<9;++i)acc[q][i]+=mm[i]/float(tex.size()); } }
-        A/=double(tex.size());N/=double(tex.size());m/=double(tex.size());
-        LobeTexel f[M];
-        auto un=[&](FilterMethod q,NormalSolver so=NormalSolver::eigen){ op.method=q; op.solver=so; return unpack_moments(std::span<const float,9>(acc[int(q)]),op); };
-        f[0]=un(FilterMethod::naive); f[1]=un(FilterMethod::lean); f[2]=un(FilterMethod::sggx); f[3]=un(FilterMethod::sggx_variance);
-        Mat3 S2=A+2*N-m*m.transpose();
-        f[4].normal=m.normalized(); f[4].s=guarded(tangent_part(S2,f[4].normal));
-        f[5].normal=m.normalized(); f[5].s=guarded(tangent_part(A+N,f[5].normal));
-        f[6]=un(FilterMethod::sggx,NormalSolver::power_iteration);
-        { // slopes about the mean normal
-          Vec3 n=m.normalized(); Mat3 F=normal_frame(n); Vec2 sb(0,0); Mat2 ss=Mat2::Zero(),aa=Mat2::Zero();
-          for(auto&t:tex){ Vec3 l=F.transpose()*t.normal; double z=std::max(l.z(),.2); Vec2 s=l.head<2>()/z; sb+=s; ss+=s*s.transpose(); aa+= (F.transpose()*(sggx_matrix(t.normal,t.s)-t.normal*t.normal.transpose())*F).topLeftCorner<2,2>(); }
-          sb/=double(tex.size()); ss/=double(tex.size()); aa/=double(tex.size());
-          f[7].normal=n; f[7].s=guarded(aa+2*(ss-sb*sb.transpose())); }
-        f[8].normal=f[2].normal; f[8].s=guarded(tangent_part(S2,f[8].normal));
-        Mat3 S15=A+1.5*N-.5*m*m.transpose(); f[9].normal=m.normalized(); f[9].s=guarded(tangent_part(S15,f[9].normal));
-        double ref_b=0, e_b[M]{};
-        for(auto&[l,v]:dirs){ double r=0; for(auto&t:tex) r+=lobe_radiance(t,l,v); r/=double(tex.size());
-          rf+=r; rf2+=r*r; ref_b+=r;
-          for(int q=0;q<M;++q){ double d=lobe_radiance(f[q],l,v)-r; ad[q]+=std::abs(d); sq[q]+=d*d; e_b[q]+=std::abs(d);} }
-        for(int q=0;q<M;++q) blockrel[q]+=e_b[q]/std::max(ref_b,1e-9)/12/double(lobes.size());
-      } }
-      for(int q=0;q<M;++q){ total[q]+=ad[q]/rf; totalrms[q]+=std::sqrt(sq[q]/rf2); tot3[q]+=blockrel[q]; mapd[q]+=ad[q]/rf; mapr[q]+=std::sqrt(sq[q]/rf2);} ++cells; ++mc;
+
+struct Method {
+  const char* name;
+  FilterOptions options;
+};
+
+const std::array<Method, 6> kMethods{
+    {{"naive", {FilterMethod::naive, NormalSolver::eigen, AnisotropyEncoding::correlation, false}},
+     {"lean", {FilterMethod::lean, NormalSolver::eigen, AnisotropyEncoding::root, false}},
+     {"sggx", {FilterMethod::sggx, NormalSolver::eigen, AnisotropyEncoding::root, false}},
+     {"sggx, power it.", {FilterMethod::sggx, NormalSolver::power_iteration, AnisotropyEncoding::root, false}},
+     {"sggx-variance", {FilterMethod::sggx_variance, NormalSolver::eigen, AnisotropyEncoding::root, false}},
+     {"... isotropic", {FilterMethod::sggx_variance, NormalSolver::eigen, AnisotropyEncoding::root, true}}}};
+
+// The slides' well-behaved pair and its neighbours, then the two pairs they call a limit.
+constexpr std::array<std::array<double, 2>, 5> kLobes{{{0.29, 0.04}, {0.2, 0.05}, {0.1, 0.1}, {0.87, 0.04}, {0.87, 0.1}}};
+constexpr int kBlocks = 12;
+constexpr int kMips = 6;
+
+using Errors = std::array<double, kMethods.size()>;
+
+struct Directions {
+  Vec3 light;
+  Vec3 view;
+};
+
+std::vector<Directions> directions() {
+  std::vector<Directions> all;
+  for (int i = 0; i < 48; ++i) {
+    // Lights are spread evenly over the projected hemisphere.
+    const double sine = std::sqrt(0.98 * (i + 0.5) / 48);
+    const double turn = 2.399963 * i;
+    const Vec3 light(sine * std::cos(turn), sine * std::sin(turn), std::sqrt(1 - sine * sine));
+    for (const double tilt : {0.0, 30.0, 60.0}) {
+      const double a = radians(tilt);
+      const double around = 1.7 * i + tilt;
+      all.push_back({light, {std::sin(a) * std::cos(around), std::sin(a) * std::sin(around), std::cos(a)}});
     }
-    std::string p=argv[a]; p=p.substr(p.rfind('/')+1);
-    fmt::print("{:34}",p.substr(0,34)); for(int q=0;q<M;++q) fmt::print(" {:5.2f}/{:5.2f}",mapd[q]/mc,mapr[q]/mc); fmt::print("\n");
   }
-  for(int q=0;q<M;++q) fmt::print("{:14} L1 {:.3f} rms {:.3f} block {:.3f}\n",names[q],total[q]/cells,totalrms[q]/cells,tot3[q]/cells);
+  return all;
+}
+
+/// At most 16 x 16 texels spread over a block.
+std::vector<LobeTexel> texels_of(const Image& map, int x0, int y0, int size, const Mat2& s) {
+  std::vector<LobeTexel> texels;
+  const int step = std::max(1, size / 16);
+  for (int y = y0; y < y0 + size; y += step) {
+    for (int x = x0; x < x0 + size; x += step) {
+      bool repaired = false;
+      texels.push_back({decode_normal(map.pixel(x, y), {}, repaired), s});
+    }
+  }
+  return texels;
+}
+
+LobeTexel filtered(const std::vector<LobeTexel>& texels, const FilterOptions& options) {
+  std::array<float, kMoments> mean{};
+  for (const LobeTexel& texel : texels) {
+    std::array<float, kMoments> moments{};
+    pack_moments(texel, options, moments);
+    for (std::size_t i = 0; i < kMoments; ++i) mean[i] += moments[i] / static_cast<float>(texels.size());
+  }
+  return unpack_moments(mean, options);
+}
+
+Errors measure(const Image& map, const AnisotropicAlpha& lobe) {
+  static const std::vector<Directions> kDirections = directions();
+  Errors mean{};
+  for (int mip = 1; mip <= kMips; ++mip) {
+    const int size = 1 << mip;
+    std::mt19937 generator(5);
+    Errors squared{};
+    double reference = 0;
+    for (int block = 0; block < kBlocks; ++block) {
+      const int x = static_cast<int>(generator() % static_cast<unsigned>(map.width / size)) * size;
+      const int y = static_cast<int>(generator() % static_cast<unsigned>(map.height / size)) * size;
+      const auto texels = texels_of(map, x, y, size, ggx_matrix(lobe));
+      std::array<LobeTexel, kMethods.size()> results;
+      for (std::size_t m = 0; m < kMethods.size(); ++m) results[m] = filtered(texels, kMethods[m].options);
+      for (const auto& [light, view] : kDirections) {
+        double truth = 0;
+        for (const LobeTexel& texel : texels) truth += lobe_radiance(texel, light, view);
+        truth /= static_cast<double>(texels.size());
+        reference += truth * truth;
+        for (std::size_t m = 0; m < kMethods.size(); ++m) {
+          squared[m] += std::pow(lobe_radiance(results[m], light, view) - truth, 2);
+        }
+      }
+    }
+    for (std::size_t m = 0; m < kMethods.size(); ++m) mean[m] += std::sqrt(squared[m] / reference) / kMips;
+  }
+  return mean;
+}
+
+void print_row(const std::string& name, const Errors& errors) {
+  fmt::print("{:32}", name);
+  for (const double e : errors) fmt::print("{:16.3f}", e);
+  fmt::print("\n");
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    fmt::print("{:32}", "");
+    for (const Method& method : kMethods) fmt::print("{:>16}", method.name);
+    fmt::print("\n");
+    std::array<Errors, kLobes.size()> by_lobe{};
+    for (int i = 1; i < argc; ++i) {
+      const std::filesystem::path path = argv[i];
+      const Image map = read_data(path);
+      Errors of_map{};
+      for (std::size_t lobe = 0; lobe < kLobes.size(); ++lobe) {
+        const Errors errors = measure(map, {kLobes[lobe][0], kLobes[lobe][1], 0.5});
+        for (std::size_t m = 0; m < errors.size(); ++m) {
+          by_lobe[lobe][m] += errors[m] / (argc - 1);
+          if (lobe < 3) of_map[m] += errors[m] / 3;
+        }
+      }
+      print_row((path.parent_path().filename() / path.filename()).string().substr(0, 31), of_map);
+    }
+    Errors all{};
+    for (std::size_t m = 0; m < all.size(); ++m) all[m] = (by_lobe[0][m] + by_lobe[1][m] + by_lobe[2][m]) / 3;
+    print_row("mean", all);
+    for (std::size_t lobe = 0; lobe < kLobes.size(); ++lobe) {
+      print_row(fmt::format("alphas {} and {}", kLobes[lobe][0], kLobes[lobe][1]), by_lobe[lobe]);
+    }
+  } catch (const sateen::Error& error) {
+    fmt::print(stderr, "aniso_filter_error: {}\n", error.what());
+    return 1;
+  }
 }

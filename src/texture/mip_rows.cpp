@@ -40,7 +40,7 @@ double bessel_i0(double x) {
 }
 
 double kaiser_sinc(double x) {
-  constexpr double kHalfWidth = 2;
+  constexpr double kHalfWidth = 3;
   constexpr double kAlpha = 4;
   if (std::abs(x) >= kHalfWidth) return 0;
   const double t = x / kHalfWidth;
@@ -97,7 +97,7 @@ std::vector<MipTaps> mip_taps(int in, int out, MipKernel kernel, MipWrap wrap) {
       }
     } else {
       const double centre = (y + 0.5) * ratio;
-      const int reach = static_cast<int>(std::ceil(2 * ratio));
+      const int reach = static_cast<int>(std::ceil(3 * ratio));
       for (int i = static_cast<int>(centre) - reach - 1; i <= static_cast<int>(centre) + reach + 1; ++i) {
         add(i, kaiser_sinc((i + 0.5 - centre) / ratio));
       }

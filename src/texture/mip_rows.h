@@ -10,7 +10,7 @@ namespace sateen {
 /// The kernel that halves a level.
 enum class MipKernel {
   box,     ///< the area each texel covers; exact for odd sizes too
-  kaiser,  ///< a sinc of two texels' half width under a Kaiser window (alpha 4): keeps more detail, can ring
+  kaiser,  ///< a sinc of three texels' half width under a Kaiser window (alpha 4): keeps more detail, can ring
 };
 
 /// What lies beyond the border.
