@@ -78,6 +78,11 @@ void add_commands(CLI::App& app) {
   add_amc_convert(amc);
   add_render(app);
   add_shade(app);
+  CLI::App& maps = add_noun(app, "maps", "Texture maps: author, filter, compress");
+  CLI::App& aniso = add_noun(maps, "aniso", "Anisotropy maps: author, filter with normals, decode");
+  add_maps_aniso_author(aniso);
+  add_maps_aniso_decode(aniso);
+  add_maps_aniso_filter(aniso);
 }
 
 int run(int argc, char** argv) {
