@@ -136,6 +136,23 @@ GgxAlbedo ggx_albedo(const AnisotropicRoughness& roughness, const Vec3& view, in
   return albedo;
 }
 
+double ggx_mean_albedo(const AnisotropicRoughness& roughness) {
+  AnisotropicRoughness along = roughness;
+  along.azimuth = 0;
+  const GaussRule& rule = gauss_rule(12);
+  double mean = 0;
+  for (std::size_t i = 0; i < rule.nodes.size(); ++i) {
+    const double cosine = std::sqrt(rule.nodes[i]);  // dw (n.w) = d(cosine^2) dphi / 2
+    const double sine = std::sqrt(1 - rule.nodes[i]);
+    for (std::size_t j = 0; j < rule.nodes.size(); ++j) {
+      const double phi = kPi / 2 * rule.nodes[j];
+      const Vec3 view(sine * std::cos(phi), sine * std::sin(phi), cosine);
+      mean += rule.weights[i] * rule.weights[j] * ggx_albedo(along, view, 24).total();
+    }
+  }
+  return mean;
+}
+
 Vec3 ggx_multiple_scattering(const Vec3& f0, double albedo_light, double albedo_view, double mean_albedo) {
   if (mean_albedo >= 1 - 1e-9) return Vec3::Zero();
   const double lobe = (1 - albedo_light) * (1 - albedo_view) / (kPi * (1 - mean_albedo));

@@ -59,6 +59,9 @@ struct GgxAlbedo {
 /// By Gauss cubature over visible normals; error below 1e-3 at the default order for alpha >= 0.05.
 GgxAlbedo ggx_albedo(const AnisotropicRoughness& roughness, const Vec3& view, int order = 32);
 
+/// Cosine-weighted mean of GgxAlbedo::total over the hemisphere.
+double ggx_mean_albedo(const AnisotropicRoughness& roughness);
+
 /// The light that single scattering loses, given back by Kulla and Conty's reciprocal lobe ("Revisiting
 /// Physically Based Shading at Imageworks", 2017): added to ggx_brdf. `albedo_light`, `albedo_view` are
 /// GgxAlbedo::total of the two directions, `mean_albedo` their cosine-weighted mean over the hemisphere.
