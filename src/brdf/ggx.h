@@ -18,6 +18,13 @@ struct AnisotropicRoughness {
   double azimuth = 0;    ///< of the axis, radians counter-clockwise from the tangent
 };
 
+/// A GGX surface as parameter files describe it.
+struct GgxParameters {
+  AnisotropicRoughness roughness;
+  Vec3 f0{0.04, 0.04, 0.04};         ///< reflectance at normal incidence
+  bool energy_compensation = false;  ///< give back what single scattering loses (ggx_multiple_scattering)
+};
+
 /// The smallest alpha the evaluators use; sharper lobes are numerically mirrors.
 inline constexpr double kMinimumAlpha = 1e-3;
 

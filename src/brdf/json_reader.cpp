@@ -144,6 +144,12 @@ Vec3 JsonObject::direction(const std::string& key) {
   return (v / largest).normalized();
 }
 
+Vec3 JsonObject::point(const std::string& key) {
+  const nlohmann::json& value = raw(key);
+  if (!three_numbers(value)) fail(key, "[x, y, z]");
+  return vector_of(value);
+}
+
 void JsonObject::finish() const {
   for (const auto& [key, value] : value_->items()) {
     if (!known_.contains(key)) {

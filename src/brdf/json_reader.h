@@ -42,6 +42,8 @@ class JsonObject {
   Vec3 colour(const std::string& key, const Vec3& fallback, double high = 1);
   /// [x, y, z] of any positive length, returned unit. The key must be there.
   Vec3 direction(const std::string& key);
+  /// [x, y, z], anywhere. The key must be there.
+  Vec3 point(const std::string& key);
   const nlohmann::json& raw(const std::string& key);
 
   [[noreturn]] void fail(const std::string& key, const std::string& what) const;

@@ -10,12 +10,6 @@
 
 namespace sateen {
 
-struct GgxParameters {
-  AnisotropicRoughness roughness;
-  Vec3 f0{0.04, 0.04, 0.04};
-  bool energy_compensation = false;
-};
-
 /// Keys alpha_t, alpha_b, azimuth, or matrix ([Sxx, Sxy, Syy]) in their place; f0; energy_compensation.
 GgxParameters read_ggx(JsonObject& json);
 

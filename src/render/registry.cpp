@@ -10,6 +10,7 @@
 
 #include "sateen/amc/amc_file.h"
 #include "sateen/amc/appearance.h"
+#include "sateen/brdf/layered.h"
 #include "sateen/core/error.h"
 #include "sateen/io/file.h"
 #include "sateen/io/image.h"
@@ -40,6 +41,7 @@ const Loaders& ktx2_kinds() {
 const Loaders& models() {
   static const Loaders loaders{
       {"constant", Constant::read},
+      {"layered", LayeredAppearance::read},
   };
   return loaders;
 }
