@@ -87,4 +87,14 @@ std::unique_ptr<Appearance> load_appearance(const fs::path& path) {
       path.string()));
 }
 
+std::unique_ptr<Appearance> load_appearance(const fs::path& path, const Image& environment) {
+  auto appearance = load_appearance(path);
+  if (!appearance->set_environment(environment)) {
+    throw Error(
+        fmt::format("{}: its light is baked in; only materials of \"model\": \"layered\" take an environment",
+                    path.string()));
+  }
+  return appearance;
+}
+
 }  // namespace sateen
