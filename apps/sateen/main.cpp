@@ -76,6 +76,8 @@ void add_commands(CLI::App& app) {
   add_amc_info(amc);
   add_amc_pictures(amc);
   add_amc_convert(amc);
+  CLI::App& brdf = add_noun(app, "brdf", "Reflectance models: evaluate, plot");
+  add_brdf_eval(brdf);
   add_render(app);
   add_shade(app);
   CLI::App& maps = add_noun(app, "maps", "Texture maps: author, filter, compress");

@@ -10,6 +10,7 @@
 
 #include "sateen/amc/amc_file.h"
 #include "sateen/amc/appearance.h"
+#include "sateen/brdf/layered.h"
 #include "sateen/core/error.h"
 #include "sateen/io/file.h"
 #include "sateen/io/image.h"
@@ -40,6 +41,7 @@ const Loaders& ktx2_kinds() {
 const Loaders& models() {
   static const Loaders loaders{
       {"constant", Constant::read},
+      {"layered", LayeredAppearance::read},
   };
   return loaders;
 }
@@ -83,6 +85,16 @@ std::unique_ptr<Appearance> load_appearance(const fs::path& path) {
   throw Error(fmt::format(
       "{}: is no material; a picture (MatCap), .ktx2 (AMC), a folder of AMC slices or .json is needed",
       path.string()));
+}
+
+std::unique_ptr<Appearance> load_appearance(const fs::path& path, const Image& environment) {
+  auto appearance = load_appearance(path);
+  if (!appearance->set_environment(environment)) {
+    throw Error(
+        fmt::format("{}: its light is baked in; only materials of \"model\": \"layered\" take an environment",
+                    path.string()));
+  }
+  return appearance;
 }
 
 }  // namespace sateen
