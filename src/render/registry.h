@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <filesystem>
+#include <memory>
+
+#include "sateen/core/appearance.h"
+
+namespace sateen {
+
+/// The appearance a file holds: a picture is a plain MatCap; a .ktx2 says what it is in its metadata under
+/// "sateen.kind"; a .json material under "model". Throws Error naming the file when it cannot be read or is
+/// of no known kind.
+std::unique_ptr<Appearance> load_appearance(const std::filesystem::path& path);
+
+}  // namespace sateen
