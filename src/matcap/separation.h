@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "sateen/core/image.h"
-#include "sateen/matcap/disc.h"
+#include "sateen/matcap/sphere_disc.h"
 
 namespace sateen {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "sateen/core/image.h"
-#include "sateen/matcap/disc.h"
+#include "sateen/matcap/sphere_disc.h"
 
 namespace sateen {
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "sateen/core/image.h"
-#include "sateen/matcap/disc.h"
+#include "sateen/matcap/sphere_disc.h"
 #include "sateen/matcap/sphere_map.h"
 
 namespace sateen {

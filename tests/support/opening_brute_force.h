@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "sateen/matcap/disc.h"
+#include "sateen/matcap/sphere_disc.h"
 
 namespace sateen::test {
 

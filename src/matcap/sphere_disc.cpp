@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "sateen/matcap/disc.h"
+#include "sateen/matcap/sphere_disc.h"
 
 #include <algorithm>
 #include <cmath>
