@@ -11,5 +11,7 @@ void add_amc_convert(CLI::App& parent);
 void add_amc_info(CLI::App& parent);
 void add_amc_pictures(CLI::App& parent);
 void add_amc_symmetry(CLI::App& parent);
+void add_render(CLI::App& parent);
+void add_shade(CLI::App& parent);
 
 }  // namespace sateen::cli

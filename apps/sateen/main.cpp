@@ -76,6 +76,8 @@ void add_commands(CLI::App& app) {
   add_amc_info(amc);
   add_amc_pictures(amc);
   add_amc_convert(amc);
+  add_render(app);
+  add_shade(app);
 }
 
 int run(int argc, char** argv) {
