@@ -62,6 +62,24 @@ std::string suggestion(const CLI::App& app, const std::vector<std::string>& unkn
   return "";
 }
 
+/// A noun that groups commands: `sateen amc build`.
+CLI::App& add_noun(CLI::App& app, const char* name, const char* summary) {
+  CLI::App* noun = app.add_subcommand(name, summary);
+  noun->fallthrough();
+  noun->require_subcommand(1);
+  return *noun;
+}
+
+void add_commands(CLI::App& app) {
+  using namespace sateen::cli;
+  CLI::App& amc = add_noun(app, "amc", "Anisotropic MatCaps: build from frames, inspect, convert");
+  add_amc_build(amc);
+  add_amc_symmetry(amc);
+  add_amc_info(amc);
+  add_amc_pictures(amc);
+  add_amc_convert(amc);
+}
+
 int run(int argc, char** argv) {
   using namespace sateen::cli;
   CLI::App app(
@@ -75,14 +93,17 @@ int run(int argc, char** argv) {
   app.add_option("--threads", threads, "Threads to use; 0 means all processors")
       ->check(CLI::NonNegativeNumber);
   app.parse_complete_callback([&] { sateen::limit_threads(threads); });
+  add_commands(app);
 
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error);
-    std::string hint;
-    if (dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr) hint = suggestion(app, app.remaining(true));
-    fmt::print(stderr, "sateen: {}.{}\nSee --help.\n", error.what(), hint);
+    // An unknown word explains more than the option that is missing because of it.
+    const std::vector<std::string> unknown = app.remaining(true);
+    const std::string what =
+        unknown.empty() ? error.what() : "unknown here: " + fmt::format("{}", fmt::join(unknown, " "));
+    fmt::print(stderr, "sateen: {}.{}\nSee --help.\n", what, suggestion(app, unknown));
     return kCommandLineIsWrong;
   }
   return 0;

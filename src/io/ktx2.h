@@ -27,15 +27,15 @@ enum class VkFormat : std::uint32_t {
   bc7_srgb = 146,
 };
 
-/// A KTX 2.0 texture file. Levels hold what the GPU takes: layer by layer, face by face, slice by slice, rows from the
-/// file's row 0, texels or 4 x 4 blocks tightly packed.
+/// A KTX 2.0 texture file. Levels hold what the GPU takes: layer by layer, face by face, slice by slice, rows
+/// from the file's row 0, texels or 4 x 4 blocks tightly packed.
 struct Ktx2 {
   VkFormat format = VkFormat::rgba8_srgb;
   std::uint32_t width = 0;
   std::uint32_t height = 0;
-  std::uint32_t depth = 0;   ///< 0: two-dimensional; otherwise a 3D texture
-  std::uint32_t layers = 0;  ///< 0: no array
-  std::uint32_t faces = 1;   ///< 6: a cube
+  std::uint32_t depth = 0;                      ///< 0: two-dimensional; otherwise a 3D texture
+  std::uint32_t layers = 0;                     ///< 0: no array
+  std::uint32_t faces = 1;                      ///< 6: a cube
   std::vector<std::vector<std::byte>> levels;   ///< level 0 is the largest
   std::map<std::string, std::string> metadata;  ///< key/value data as UTF-8 text, such as KTXorientation "rd"
 };
@@ -44,11 +44,13 @@ struct Ktx2 {
 std::size_t ktx2_level_bytes(const Ktx2& texture, std::uint32_t level);
 
 /// Reads any KTX2 in the formats above, uncompressed or with Zstandard supercompression.
-/// Throws Error naming the file when it is no KTX2, truncated, larger than its bytes can hold, or in another format.
+/// Throws Error naming the file when it is no KTX2, truncated, larger than its bytes can hold, or in another
+/// format.
 Ktx2 read_ktx2(const std::filesystem::path& path);
 
-/// Writes with Zstandard supercompression at `zstd_level` (0: none), a correct basic data format descriptor and
-/// KTXwriter. Atomic. Throws Error when a level's size does not fit the dimensions or the file cannot be written.
+/// Writes with Zstandard supercompression at `zstd_level` (0: none), a correct basic data format descriptor
+/// and KTXwriter. Atomic. Throws Error when a level's size does not fit the dimensions or the file cannot be
+/// written.
 void write_ktx2(const std::filesystem::path& path, const Ktx2& texture, int zstd_level = 9);
 
 }  // namespace sateen

@@ -10,8 +10,8 @@
 
 namespace sateen {
 
-/// What a mesh file says of one of its materials, as far as Sateen carries it over. Pictures are empty where there are
-/// none; their texture coordinates are uv_scale * uv + uv_offset, v up.
+/// What a mesh file says of one of its materials, as far as Sateen carries it over. Pictures are empty where
+/// there are none; their texture coordinates are uv_scale * uv + uv_offset, v up.
 struct MeshMaterial {
   std::string name;
   Image normal_map;     ///< tangent space, data in [0, 1], green up
@@ -27,9 +27,10 @@ struct Model {
   std::vector<MeshMaterial> materials;  ///< as many as mesh.material_names
 };
 
-/// Reads OBJ, PLY, GLB or glTF. Polygons become triangles; triangles with equal indices or without area are dropped; unit
-/// tangents are kept when the file has them; normals and tangents that are missing are left empty.
-/// Throws Error naming the file when it is missing, no mesh, truncated, has no triangles or positions that are not finite.
+/// Reads OBJ, PLY, GLB or glTF. Polygons become triangles; triangles with equal indices or without area are
+/// dropped; unit tangents are kept when the file has them; normals and tangents that are missing are left
+/// empty. Throws Error naming the file when it is missing, no mesh, truncated, has no triangles or positions
+/// that are not finite.
 Model read_model(const std::filesystem::path& path);
 
 }  // namespace sateen

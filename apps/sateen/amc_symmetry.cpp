@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include "amc_report.h"
+#include "command.h"
+#include "commands.h"
+
+namespace sateen::cli {
+namespace {
+
+struct Arguments {
+  FrameArguments frames;
+  double threshold = kDefaultSymmetryThreshold;
+  bool json = false;
+};
+
+std::string as_text(const SymmetryReport& report) {
+  std::string text;
+  for (const Similarity& s : report.similarities) {
+    if (s.turns == 1) continue;
+    text += fmt::format("turned by 1/{}: {:5.1f} dB  (rmse {:.4f} of the peak){}\n", s.turns, s.psnr, s.rmse,
+                        s.psnr >= report.threshold ? "  alike" : "");
+  }
+  text += fmt::format("any turn:      {:5.1f} dB  (rmse {:.4f} of the peak){}\n", report.isotropy.psnr,
+                      report.isotropy.rmse, report.isotropic ? "  alike: isotropic" : "");
+  return text +
+         fmt::format(
+             "symmetry R = {} at a threshold of {:.1f} dB; averaging removes {:.4f} of the peak as noise\n",
+             report.symmetry, report.threshold, report.noise_removed);
+}
+
+}  // namespace
+
+void add_amc_symmetry(CLI::App& parent) {
+  auto arguments = std::make_shared<Arguments>();
+  CLI::App* command = add_command(parent, "symmetry", "Report which turns leave a captured material alike",
+                                  "sateen amc symmetry examples/silk");
+  add_frame_options(*command, arguments->frames);
+  command->add_option("--threshold", arguments->threshold, "PSNR in dB from which a turn counts as alike");
+  command->add_flag("--json", arguments->json, "Print the report as JSON");
+  command->callback([arguments] {
+    const SymmetryReport report = analyse_symmetry(load(arguments->frames).frames, arguments->threshold);
+    print(arguments->json ? to_json(report).dump(2) + "\n" : as_text(report));
+  });
+}
+
+}  // namespace sateen::cli
