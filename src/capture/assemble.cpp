@@ -161,7 +161,7 @@ AssembledSlices assemble(const RectifiedStack& stack, const SurfaceMask& mask, d
       samples.clear();
       for (std::size_t f = 0; f < stack.frames.size(); ++f) {
         const RectifiedFrame& frame = stack.frames[f];
-        if (frame.weight[i] == 0 || mask.at(body_point(axes, point.normal, stack.angles[f]))) continue;
+        if (frame.weight[i] == 0 || mask.excludes(body_point(axes, point.normal, stack.angles[f]))) continue;
         Sample sample;
         sample.angle = wrap(tangent.at(first_angle, stack.angles[f]), period);
         sample.weight = static_cast<float>(frame.weight[i]) / 255.0f;

@@ -31,14 +31,19 @@ int grey_factor(int width, int height) {
 }
 
 GreyPicture grey_picture(const Frame& frame, int factor) {
+  return grey_picture(frame, factor, {0, 0, frame.width() / factor, frame.height() / factor});
+}
+
+GreyPicture grey_picture(const Frame& frame, int factor, const GreyRegion& region) {
   GreyPicture picture;
   picture.width = frame.width() / factor;
   picture.height = frame.height() / factor;
   picture.codes.resize(static_cast<std::size_t>(picture.width) * static_cast<std::size_t>(picture.height));
   const float scale = 1.0f / static_cast<float>(factor * factor);
-  std::size_t i = 0;
-  for (int y = 0; y < picture.height; ++y) {
-    for (int x = 0; x < picture.width; ++x) {
+  for (int y = std::max(0, region.top); y < std::min(picture.height, region.bottom); ++y) {
+    const int first = std::max(0, region.left);
+    std::size_t i = static_cast<std::size_t>(y) * static_cast<std::size_t>(picture.width) + static_cast<std::size_t>(first);
+    for (int x = first; x < std::min(picture.width, region.right); ++x) {
       float sum = 0;
       for (int v = 0; v < factor; ++v) {
         for (int u = 0; u < factor; ++u) sum += frame.grey(x * factor + u, y * factor + v);

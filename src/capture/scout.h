@@ -25,7 +25,18 @@ struct GreyPicture {
 };
 
 int grey_factor(int width, int height);
+
+/// A rectangle of the grey picture, first column and row included, last not.
+struct GreyRegion {
+  int left = 0;
+  int top = 0;
+  int right = 0;
+  int bottom = 0;
+};
+
+/// The whole picture, or only `region` with 0 elsewhere.
 GreyPicture grey_picture(const Frame& frame, int factor);
+GreyPicture grey_picture(const Frame& frame, int factor, const GreyRegion& region);
 
 /// What a few frames of a capture, spread over the turn, say of where the turning sphere is. In pixels of GreyPicture.
 struct Scouting {

@@ -87,7 +87,7 @@ std::vector<float> body_deviation(const RectifiedStack& stack, const SurfaceMask
           const RectifiedFrame& frame = stack.frames[f];
           bodies[f] = body_point(axes, point.normal, stack.angles[f]);
           usable[f] = frame.weight[i] > 127 ? 1 : 0;
-          if (usable[f] != 0 && already.size > 0 && already.at(bodies[f])) usable[f] = 2;
+          if (usable[f] != 0 && already.size > 0 && already.excludes(bodies[f])) usable[f] = 2;
           for (std::size_t c = 0; c < 3; ++c) {
             light[f][c] = std::log(std::max(0.0f, static_cast<float>(frame.rgb[i * 3 + c])) + dark);
           }
@@ -159,7 +159,19 @@ void remove_rings(std::vector<float>& deviation, int size) {
   }
 }
 
-void measure_share(SurfaceMask& mask) {
+std::size_t body_pixel(const Vec2& body, int size) {
+  const Vec2 p = pixel_of_disc(body, size);
+  const int x = std::clamp(static_cast<int>(p.x()), 0, size - 1);
+  const int y = std::clamp(static_cast<int>(p.y()), 0, size - 1);
+  return static_cast<std::size_t>(y * size + x);
+}
+
+/// Derives what follows from `masked`.
+void finish(SurfaceMask& mask) {
+  mask.excluded.resize(mask.masked.size());
+  const cv::Mat core(mask.size, mask.size, CV_8U, mask.masked.data());
+  const cv::Mat wider(mask.size, mask.size, CV_8U, mask.excluded.data());
+  cv::dilate(core, wider, cv::getStructuringElement(cv::MORPH_ELLIPSE, {5, 5}));
   double inside = 0;
   double masked = 0;
   for (int y = 0; y < mask.size; ++y) {
@@ -174,12 +186,12 @@ void measure_share(SurfaceMask& mask) {
 
 }  // namespace
 
-bool SurfaceMask::at(const Vec2& body) const {
-  if (size == 0) return false;
-  const Vec2 p = pixel_of_disc(body, size);
-  const int x = std::clamp(static_cast<int>(p.x()), 0, size - 1);
-  const int y = std::clamp(static_cast<int>(p.y()), 0, size - 1);
-  return masked[static_cast<std::size_t>(y * size + x)] != 0;
+bool SurfaceMask::excludes(const Vec2& body) const {
+  return size > 0 && excluded[body_pixel(body, size)] != 0;
+}
+
+bool SurfaceMask::masks(const Vec2& body) const {
+  return size > 0 && masked[body_pixel(body, size)] != 0;
 }
 
 SurfaceMask find_blemishes(const RectifiedStack& stack, const SurfaceMask& already) {
@@ -193,6 +205,7 @@ SurfaceMask find_blemishes(const RectifiedStack& stack, const SurfaceMask& alrea
     if (d != 0) strengths.push_back(std::abs(d));
   }
   mask.masked.assign(mask.deviation.size(), 0);
+  mask.excluded = mask.masked;
   if (strengths.size() < 50) return mask;
   const double sigma = 1.4826 * median(strengths);
   const double high = std::max(2 * kSmallest, 7 * sigma);
@@ -226,7 +239,7 @@ SurfaceMask find_blemishes(const RectifiedStack& stack, const SurfaceMask& alrea
   for (std::size_t i = 0; i < mask.masked.size(); ++i) {
     mask.masked[i] = chosen.at<std::uint8_t>(static_cast<int>(i) / mask.size, static_cast<int>(i) % mask.size);
   }
-  measure_share(mask);
+  finish(mask);
   return mask;
 }
 
@@ -251,7 +264,7 @@ SurfaceMask mask_from_painting(const Image& painting, const Camera& camera, cons
       mask.masked[static_cast<std::size_t>(y * size + x)] = paint.maxCoeff() > 0.2f ? 1 : 0;
     }
   }
-  measure_share(mask);
+  finish(mask);
   return mask;
 }
 
@@ -261,10 +274,10 @@ SurfaceMask united(const SurfaceMask& a, const SurfaceMask& b) {
   SurfaceMask mask = a;
   for (int y = 0; y < a.size; ++y) {
     for (int x = 0; x < a.size; ++x) {
-      if (b.at(disc_of_pixel(x, y, a.size))) mask.masked[static_cast<std::size_t>(y * a.size + x)] = 1;
+      if (b.masks(disc_of_pixel(x, y, a.size))) mask.masked[static_cast<std::size_t>(y * a.size + x)] = 1;
     }
   }
-  measure_share(mask);
+  finish(mask);
   return mask;
 }
 

@@ -13,11 +13,15 @@ namespace sateen {
 /// the body at angle 0 along the axis: pixel (x, y) is the body_point disc_of_pixel(x, y, size).
 struct SurfaceMask {
   int size = 0;
-  std::vector<std::uint8_t> masked;    ///< 1: not to be used
+  std::vector<std::uint8_t> masked;    ///< 1: shows no clean material
+  std::vector<std::uint8_t> excluded;  ///< masked and its near neighbours, whose footprints overlap it
   std::vector<float> deviation;        ///< how much lighter (+) or darker (-) than its neighbours, natural log
   double share = 0;                    ///< of the disc
 
-  bool at(const Vec2& body) const;
+  /// Whether a sample of this body point must not be used.
+  bool excludes(const Vec2& body) const;
+  /// Whether the body point itself shows no clean material.
+  bool masks(const Vec2& body) const;
 };
 
 /// Finds blemishes with no hint: along the turn each texel's light changes smoothly, except while a seam passes. What
