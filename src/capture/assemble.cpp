@@ -11,6 +11,8 @@
 namespace sateen {
 namespace {
 
+constexpr double kWidestBridge = 1.0 / 9;  // turns
+
 struct Sample {
   double angle = 0;  // turns, within one period
   float weight = 0;
@@ -74,27 +76,29 @@ double spacing_of(const std::vector<Sample>& samples, double period) {
   return period / different;
 }
 
-/// The light at `target` from samples sorted by angle and repeated over three periods; false if none is near.
-bool fit_at(const std::vector<Sample>& samples, double target, double half_width, double widest,
-            std::array<float, 3>& rgb) {
-  for (double h = half_width;; h *= 1.5) {
-    const bool last = h >= widest;
-    h = std::min(h, widest);
-    Moments moments;
-    auto it = std::ranges::lower_bound(samples, target - h, {}, &Sample::angle);
-    for (; it != samples.end() && it->angle < target + h; ++it) moments.add(*it, (it->angle - target) / h);
-    const bool both = moments.left > 0.02 * moments.s[0] && moments.right > 0.02 * moments.s[0];
-    if (moments.count >= 3 && both) {
-      rgb = moments.value();
-      return true;
-    }
-    if (last) {
-      // A gap as wide as this is no longer bridged; only its two shores are taken, as they are.
-      if (moments.s[0] <= 0) return false;
-      rgb = moments.value();
-      return true;
-    }
+/// How a texel's light at one angle is known.
+enum class Known { no, bridged, measured };
+
+/// The light at `target` from samples sorted by angle and repeated over three periods. Inside a gap wider than the fit
+/// (a masked seam passing) the two shores are blended; beyond `widest` nothing is known.
+Known fit_at(const std::vector<Sample>& samples, double target, double half_width, double widest,
+             std::array<float, 3>& rgb) {
+  const auto above = std::ranges::lower_bound(samples, target, {}, &Sample::angle);
+  if (above == samples.begin() || above == samples.end()) return Known::no;
+  const auto below = above - 1;
+  const double gap = above->angle - below->angle;
+  if (gap > widest) return Known::no;
+  if (gap > 1.5 * half_width) {
+    const auto mix = static_cast<float>((target - below->angle) / gap);
+    for (std::size_t c = 0; c < 3; ++c) rgb[c] = below->rgb[c] + mix * (above->rgb[c] - below->rgb[c]);
+    return Known::bridged;
   }
+  Moments moments;
+  auto it = std::ranges::lower_bound(samples, target - half_width, {}, &Sample::angle);
+  for (; it != samples.end() && it->angle < target + half_width; ++it) moments.add(*it, (it->angle - target) / half_width);
+  if (moments.count == 0) return Known::no;
+  rgb = moments.value();
+  return Known::measured;
 }
 
 /// Grows known texels over unknown ones, ring by ring, as the mean of the known neighbours.
@@ -180,11 +184,11 @@ AssembledSlices assemble(const RectifiedStack& stack, const SurfaceMask& mask, d
       }
       for (int slice = 0; slice < count; ++slice) {
         std::array<float, 3> rgb{};
-        // Bridged are gaps of up to a ninth of a turn in all.
-        if (!fit_at(repeated, period * slice / count, 2 * spacing, std::max(4 * spacing, 1.0 / 18), rgb)) continue;
+        const Known known = fit_at(repeated, period * slice / count, 2 * spacing, std::max(4 * spacing, kWidestBridge), rgb);
+        if (known == Known::no) continue;
         result.slices[static_cast<std::size_t>(slice)].set_rgb(
             x, y, Vec3f(std::max(0.0f, rgb[0]), std::max(0.0f, rgb[1]), std::max(0.0f, rgb[2])));
-        result.seen[static_cast<std::size_t>(slice) * texels + i] = 1;
+        result.seen[static_cast<std::size_t>(slice) * texels + i] = known == Known::measured ? 1 : 2;
       }
     }
   });
@@ -199,7 +203,7 @@ AssembledSlices assemble(const RectifiedStack& stack, const SurfaceMask& mask, d
     const auto texel = static_cast<int>(i % texels);
     if (disc_of_pixel(texel % size, texel / size, size).norm() >= 1) continue;
     ++inside;
-    seen += result.seen[i];
+    seen += result.seen[i] == 1 ? 1 : 0;
   }
   result.seen_share = seen / inside;
   return result;

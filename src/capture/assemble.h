@@ -13,7 +13,7 @@ namespace sateen {
 /// Slices of a table at evenly spaced tangent angles over one period.
 struct AssembledSlices {
   std::vector<Image> slices;               ///< RGB, row 0 on top; slice f is the angle f / (symmetry * count) turns
-  std::vector<std::uint8_t> seen;          ///< per slice and texel: 1 measured, 0 filled from neighbours
+  std::vector<std::uint8_t> seen;          ///< per slice and texel: 1 measured, 2 blended across a gap along k, 0 filled from neighbouring texels
   double seen_share = 0;                   ///< of the texels inside the disc
 };
 

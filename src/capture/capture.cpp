@@ -450,8 +450,25 @@ class Builder {
     for (CaptureFrame& frame : result_.frames) frame.angle = wrap(first_angle_ + frame.turned, 2 * kPi);
   }
 
+  /// What a seam hid says nothing about symmetry: there the slice half a turn on stands in, which for R = 2 and 4 is as
+  /// good as leaving it out.
+  void take_unseen_from_opposite(AssembledSlices& whole) const {
+    const auto texels = static_cast<std::size_t>(options_.size) * static_cast<std::size_t>(options_.size);
+    const std::vector<Image> original = whole.slices;
+    for (std::size_t k = 0; k < original.size(); ++k) {
+      const std::size_t opposite = (k + original.size() / 2) % original.size();
+      for (std::size_t i = 0; i < texels; ++i) {
+        if (whole.seen[k * texels + i] == 1 || whole.seen[opposite * texels + i] != 1) continue;
+        const int x = static_cast<int>(i) % options_.size;
+        const int y = static_cast<int>(i) / options_.size;
+        whole.slices[k].set_rgb(x, y, original[opposite].rgb(x, y));
+      }
+    }
+  }
+
   void make_table() {
-    const AssembledSlices whole = assemble(stack_, result_.mask, first_angle_, kSymmetrySlices, 1);
+    AssembledSlices whole = assemble(stack_, result_.mask, first_angle_, kSymmetrySlices, 1);
+    take_unseen_from_opposite(whole);
     std::vector<AmcFrame> frames;
     for (int i = 0; i < kSymmetrySlices; ++i) {
       frames.push_back({whole.slices[static_cast<std::size_t>(i)], static_cast<double>(i) / kSymmetrySlices});

@@ -38,125 +38,127 @@ float dark_floor(const RectifiedStack& stack) {
   return std::max(1e-5f, 0.02f * *high);
 }
 
-struct Accumulator {
-  std::vector<std::array<float, 3>> sum;
-  std::vector<float> count;
-};
+constexpr std::int8_t kUnknown = -128;
 
-/// Body pixels around a body point and their bilinear shares.
-template <class Body>
-void splat(int size, const Vec2& body, Body add) {
-  const Vec2 at = pixel_of_disc(body, size) - Vec2(0.5, 0.5);
-  const int x0 = static_cast<int>(std::floor(at.x()));
-  const int y0 = static_cast<int>(std::floor(at.y()));
-  const double fx = at.x() - x0;
-  const double fy = at.y() - y0;
-  for (int v = 0; v < 2; ++v) {
-    for (int u = 0; u < 2; ++u) {
-      const int x = x0 + u;
-      const int y = y0 + v;
-      if (x < 0 || y < 0 || x >= size || y >= size) continue;
-      add(static_cast<std::size_t>(y * size + x), static_cast<float>((u != 0 ? fx : 1 - fx) * (v != 0 ? fy : 1 - fy)));
-    }
-  }
-}
-
-/// Mean deviation of each body pixel, in the channel where it is largest, signed; 0 where nothing is known.
-std::vector<float> body_deviation(const RectifiedStack& stack, const SurfaceMask& already, int size) {
-  const int texels = stack.size;
+/// How much each rectified sample differs from the median of the angles around it, natural log, 100 a unit, clamped to
+/// +-1.2; kUnknown in the dark and where too few neighbours are seen. Index (frame * texels + texel) * 3 + channel.
+std::vector<std::int8_t> deviations(const RectifiedStack& stack, const SurfaceMask& already) {
   const std::size_t frames = stack.frames.size();
-  const auto body_pixels = static_cast<std::size_t>(size) * static_cast<std::size_t>(size);
+  const std::size_t texels = stack.points.size();
   const AxisFrame axes(stack.axis);
   const float dark = dark_floor(stack);
-  constexpr int kStrips = 8;  // partial sums, the same whatever the number of threads
-  std::vector<Accumulator> strips(kStrips);
-  parallel_for(kStrips, [&](int strip) {
-    Accumulator& out = strips[static_cast<std::size_t>(strip)];
-    out.sum.assign(body_pixels, {0, 0, 0});
-    out.count.assign(body_pixels, 0);
+  std::vector<std::int8_t> result(frames * texels * 3, kUnknown);
+  // The neighbours of a frame along the turn are the same for all texels.
+  std::vector<std::vector<std::size_t>> neighbours(frames);
+  for (std::size_t f = 0; f < frames; ++f) {
+    for (std::size_t g = 0; g < frames; ++g) {
+      const double apart = std::abs(std::remainder(stack.angles[g] - stack.angles[f], 2 * kPi));
+      if (apart > kNear && apart < kFar) neighbours[f].push_back(g);
+    }
+    // A long video has more than a median needs.
+    const std::size_t every = (neighbours[f].size() + 31) / 32;
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < neighbours[f].size(); i += std::max<std::size_t>(1, every)) {
+      neighbours[f][kept++] = neighbours[f][i];
+    }
+    neighbours[f].resize(kept);
+  }
+  parallel_for(stack.size, [&](int row) {
     std::vector<std::array<float, 3>> light(frames);
     std::vector<std::uint8_t> usable(frames);
-    std::vector<Vec2> bodies(frames);
     std::vector<float> around;
-    for (int y = strip; y < texels; y += kStrips) {
-      for (int x = 0; x < texels; ++x) {
-        const auto i = static_cast<std::size_t>(y * texels + x);
-        const SeenPoint& point = stack.points[i];
-        if (!point.visible) continue;
-        for (std::size_t f = 0; f < frames; ++f) {
-          const RectifiedFrame& frame = stack.frames[f];
-          bodies[f] = body_point(axes, point.normal, stack.angles[f]);
-          usable[f] = frame.weight[i] > 127 ? 1 : 0;
-          if (usable[f] != 0 && already.size > 0 && already.excludes(bodies[f])) usable[f] = 2;
-          for (std::size_t c = 0; c < 3; ++c) {
-            light[f][c] = std::log(std::max(0.0f, static_cast<float>(frame.rgb[i * 3 + c])) + dark);
-          }
+    for (int x = 0; x < stack.size; ++x) {
+      const auto i = static_cast<std::size_t>(row * stack.size + x);
+      if (!stack.points[i].visible) continue;
+      for (std::size_t f = 0; f < frames; ++f) {
+        const RectifiedFrame& frame = stack.frames[f];
+        usable[f] = frame.weight[i] > 127 ? 1 : 0;
+        if (usable[f] != 0 && already.excludes(body_point(axes, stack.points[i].normal, stack.angles[f]))) usable[f] = 2;
+        for (std::size_t c = 0; c < 3; ++c) {
+          light[f][c] = std::log(std::max(0.0f, static_cast<float>(frame.rgb[i * 3 + c])) + dark);
         }
-        for (std::size_t f = 0; f < frames; ++f) {
-          if (usable[f] == 0) continue;
-          std::array<float, 3> deviation{};
-          bool known = true;
-          for (std::size_t c = 0; c < 3 && known; ++c) {
-            around.clear();
-            for (std::size_t step = 1; step < frames; ++step) {
-              bool inside = false;
-              for (const std::size_t g : {(f + step) % frames, (f + frames - step) % frames}) {
-                const double apart = std::abs(std::remainder(stack.angles[g] - stack.angles[f], 2 * kPi));
-                inside = inside || apart < kFar;
-                if (apart > kNear && apart < kFar && usable[g] == 1) around.push_back(light[g][c]);
-              }
-              if (!inside) break;
-            }
-            known = around.size() >= 4;
-            if (known) deviation[c] = std::clamp(light[f][c] - static_cast<float>(median(around)), -1.0f, 1.0f);
+      }
+      const float darkest = std::log(3 * dark);
+      for (std::size_t f = 0; f < frames; ++f) {
+        if (usable[f] == 0) continue;
+        for (std::size_t c = 0; c < 3; ++c) {
+          around.clear();
+          for (const std::size_t g : neighbours[f]) {
+            if (usable[g] == 1) around.push_back(light[g][c]);
           }
-          if (!known) continue;
-          splat(size, bodies[f], [&](std::size_t at, float share) {
-            for (std::size_t c = 0; c < 3; ++c) out.sum[at][c] += share * deviation[c];
-            out.count[at] += share;
-          });
+          if (around.size() < 3) continue;
+          const auto expected = static_cast<float>(median(around));
+          if (expected < darkest) continue;
+          const float deviation = std::clamp(light[f][c] - expected, -1.2f, 1.2f);
+          result[(f * texels + i) * 3 + c] = static_cast<std::int8_t>(std::lround(deviation * 100));
         }
       }
     }
   });
-  std::vector<float> result(body_pixels, 0);
-  for (std::size_t i = 0; i < body_pixels; ++i) {
-    std::array<float, 3> sum{0, 0, 0};
-    float count = 0;
-    for (const Accumulator& strip : strips) {
-      for (std::size_t c = 0; c < 3; ++c) sum[c] += strip.sum[i][c];
-      count += strip.count[i];
-    }
-    if (count < 2) continue;
-    const float strongest = *std::ranges::max_element(sum, {}, [](float v) { return std::abs(v); });
-    result[i] = strongest / count;
-  }
   return result;
 }
 
-/// Each ring's own median is shading that the medians over angles did not follow: the same all the way round.
-void remove_rings(std::vector<float>& deviation, int size) {
-  const auto rings = static_cast<std::size_t>(size / 4);
-  std::vector<std::vector<float>> ring(rings + 1);
-  const auto ring_of = [&](int x, int y) {
-    return std::min(rings, static_cast<std::size_t>(disc_of_pixel(x, y, size).norm() * static_cast<double>(rings)));
-  };
-  for (int y = 0; y < size; ++y) {
-    for (int x = 0; x < size; ++x) {
-      const float d = deviation[static_cast<std::size_t>(y * size + x)];
-      if (d != 0) ring[ring_of(x, y)].push_back(d);
+/// The deviation that nearly all frames agree on at each body pixel, in the channel where it is strongest; 0 where nothing
+/// is known. A highlight crosses a place of the body in some frames, a blemish is there in all.
+std::vector<float> body_deviation(const RectifiedStack& stack, const SurfaceMask& already, int size) {
+  const std::size_t frames = stack.frames.size();
+  const std::size_t texels = stack.points.size();
+  const std::vector<std::int8_t> deviation = deviations(stack, already);
+  // Where on the table a body direction is seen as it turns: through the map from normals across the axis to texels.
+  const AxisFrame axes(stack.axis);
+  std::vector<std::int32_t> texel_of(static_cast<std::size_t>(size) * static_cast<std::size_t>(size) * 4, -1);
+  const int fine = 2 * size;
+  for (std::size_t i = 0; i < texels; ++i) {
+    if (!stack.points[i].visible || stack.points[i].normal.dot(stack.axis) <= 0) continue;
+    const Vec2 p = pixel_of_disc(body_point(axes, stack.points[i].normal, 0), fine);
+    for (int v = -2; v <= 1; ++v) {
+      for (int u = -2; u <= 1; ++u) {
+        const int x = static_cast<int>(std::lround(p.x())) + u;
+        const int y = static_cast<int>(std::lround(p.y())) + v;
+        if (x < 0 || y < 0 || x >= fine || y >= fine) continue;
+        std::int32_t& slot = texel_of[static_cast<std::size_t>(y * fine + x)];
+        const auto distance = [&](std::int32_t t) {
+          return (pixel_of_disc(body_point(axes, stack.points[static_cast<std::size_t>(t)].normal, 0), fine) -
+                  Vec2(x + 0.5, y + 0.5))
+              .squaredNorm();
+        };
+        if (slot < 0 || distance(static_cast<std::int32_t>(i)) < distance(slot)) slot = static_cast<std::int32_t>(i);
+      }
     }
   }
-  std::vector<float> middle(rings + 1, 0);
-  for (std::size_t r = 0; r <= rings; ++r) {
-    if (ring[r].size() > 8) middle[r] = static_cast<float>(median(ring[r]));
-  }
-  for (int y = 0; y < size; ++y) {
+  std::vector<float> result(static_cast<std::size_t>(size) * static_cast<std::size_t>(size), 0);
+  parallel_for(size, [&](int y) {
+    std::vector<float> seen[3];
     for (int x = 0; x < size; ++x) {
-      float& d = deviation[static_cast<std::size_t>(y * size + x)];
-      if (d != 0) d -= middle[ring_of(x, y)];
+      const Vec2 disc = disc_of_pixel(x, y, size);
+      if (disc.norm() >= 0.995) continue;
+      for (auto& values : seen) values.clear();
+      for (std::size_t f = 0; f < frames; ++f) {
+        const double c = std::cos(stack.angles[f]);
+        const double s = std::sin(stack.angles[f]);
+        const Vec2 p = pixel_of_disc(Vec2(c * disc.x() - s * disc.y(), s * disc.x() + c * disc.y()), fine);
+        const auto at = static_cast<std::size_t>(std::min(fine - 1, static_cast<int>(p.y())) * fine +
+                                                 std::min(fine - 1, static_cast<int>(p.x())));
+        if (texel_of[at] < 0) continue;
+        for (std::size_t channel = 0; channel < 3; ++channel) {
+          const std::int8_t d = deviation[(f * texels + static_cast<std::size_t>(texel_of[at])) * 3 + channel];
+          if (d != kUnknown) seen[channel].push_back(static_cast<float>(d) / 100);
+        }
+      }
+      float strongest = 0;
+      for (auto& values : seen) {
+        if (values.size() * 4 < frames || values.size() < 6) continue;
+        std::ranges::sort(values);
+        const float middle = values[values.size() / 2];
+        // The quantile on the side of 0 that a quarter of the frames may still fall short of.
+        const float agreed = middle < 0 ? std::min(0.0f, values[values.size() * 3 / 4])
+                                        : std::max(0.0f, values[values.size() / 4]);
+        if (std::abs(agreed) > std::abs(strongest)) strongest = agreed;
+      }
+      result[static_cast<std::size_t>(y * size + x)] = strongest;
     }
-  }
+  });
+  return result;
 }
 
 std::size_t body_pixel(const Vec2& body, int size) {
@@ -198,18 +200,10 @@ SurfaceMask find_blemishes(const RectifiedStack& stack, const SurfaceMask& alrea
   SurfaceMask mask;
   mask.size = stack.size;
   mask.deviation = body_deviation(stack, already, mask.size);
-  remove_rings(mask.deviation, mask.size);
 
-  std::vector<float> strengths;
-  for (const float d : mask.deviation) {
-    if (d != 0) strengths.push_back(std::abs(d));
-  }
   mask.masked.assign(mask.deviation.size(), 0);
-  mask.excluded = mask.masked;
-  if (strengths.size() < 50) return mask;
-  const double sigma = 1.4826 * median(strengths);
-  const double high = std::max(2 * kSmallest, 7 * sigma);
-  const double low = std::max(kSmallest, 3.5 * sigma);
+  const double high = 2 * kSmallest;
+  const double low = kSmallest;
 
   // Hysteresis: a blemish has a strong core; its faint border belongs to it.
   cv::Mat weak(mask.size, mask.size, CV_8U);
