@@ -11,5 +11,6 @@ void add_amc_convert(CLI::App& parent);
 void add_amc_info(CLI::App& parent);
 void add_amc_pictures(CLI::App& parent);
 void add_amc_symmetry(CLI::App& parent);
+void add_capture_build(CLI::App& parent);
 
 }  // namespace sateen::cli

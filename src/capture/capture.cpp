@@ -346,23 +346,30 @@ class Builder {
     std::vector<int> indices;
     for (const std::size_t i : used()) indices.push_back(static_cast<int>(i));
     std::ranges::sort(indices);
+    result_.preview_frame = indices.front();
     std::vector<RectifiedFrame> frames(notes_.size());
     std::atomic<int> done = 0;
     const Progress progress = stage(0.5, 0.9);
+    const int first = result_.preview_frame;
     source_.visit(indices, [&](int index, const Frame& frame) {
       const CaptureFrame& known = result_.frames[static_cast<std::size_t>(index)];
       frames[static_cast<std::size_t>(index)] = rectify(map, frame, known.centre, known.gain);
+      if (index == first) keep_preview(frame);
       report(progress, static_cast<double>(++done) / static_cast<double>(indices.size()));
     });
     std::ranges::sort(indices, {}, [&](int i) { return result_.frames[static_cast<std::size_t>(i)].turned; });
     double clipped = 0;
     double samples = 0;
+    result_.clipped = Image(options_.size, options_.size, 1);
+    const float share = 1 / static_cast<float>(indices.size());
     for (const int i : indices) {
       RectifiedFrame& frame = frames[static_cast<std::size_t>(i)];
       if (frame.weight.empty()) continue;
       for (std::size_t t = 0; t < frame.weight.size(); ++t) {
         samples += frame.weight[t] > 0 ? 1 : 0;
-        clipped += frame.clipped[t] > 127 ? 1 : 0;
+        if (frame.clipped[t] <= 127) continue;
+        ++clipped;
+        result_.clipped.data[t] += share;
       }
       stack_.frames.push_back(std::move(frame));
       stack_.angles.push_back(result_.frames[static_cast<std::size_t>(i)].turned);
@@ -375,6 +382,12 @@ class Builder {
     }
     if (!options_.mask.empty()) read_painted_mask();
     if (options_.find_blemishes) find_seams();
+  }
+
+  void keep_preview(const Frame& frame) {
+    const int factor = (frame.width() + 959) / 960;
+    const Image whole = frame.crop(0, 0, frame.width() / factor * factor, frame.height() / factor * factor);
+    result_.preview = resized(whole, whole.width / factor, whole.height / factor);
   }
 
   void read_painted_mask() {

@@ -93,6 +93,9 @@ struct CaptureResult {
   double seen_share = 0;               ///< of table entries inside the disc that were measured, not filled
   std::vector<std::uint8_t> seen;      ///< AssembledSlices::seen
   std::string zero_source;             ///< in words
+  Image preview;                       ///< the first used frame, light, at most about 960 pixels wide
+  int preview_frame = 0;
+  Image clipped;                       ///< size x size, 1 channel: share of the frames in which a texel is clipped
   std::vector<std::string> warnings;   ///< in plain words with what to do
 };
 
