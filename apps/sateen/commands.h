@@ -17,5 +17,6 @@ void add_shade(CLI::App& parent);
 void add_maps_aniso_author(CLI::App& parent);
 void add_maps_aniso_decode(CLI::App& parent);
 void add_maps_aniso_filter(CLI::App& parent);
+void add_capture_build(CLI::App& parent);
 
 }  // namespace sateen::cli

@@ -85,6 +85,8 @@ void add_commands(CLI::App& app) {
   add_maps_aniso_author(aniso);
   add_maps_aniso_decode(aniso);
   add_maps_aniso_filter(aniso);
+  CLI::App& capture = add_noun(app, "capture", "From a camera and a turning sphere to an Anisotropic MatCap");
+  add_capture_build(capture);
 }
 
 int run(int argc, char** argv) {
