@@ -42,7 +42,7 @@ TEST(Occlusion, InAHemisphericalCupIsOneHalf) {
   // comes in.
   Mesh cup = make_grid(96, 48, [](double u, double v) { return on_sphere(1 - u, 0.5 * v, 1); });
   for (const Vec3f& p : cup.positions) cup.normals.push_back(-p);
-  compute_occlusion(cup, 1024);
+  compute_occlusion(cup, 256);
   double sum = 0;
   int count = 0;
   for (std::size_t i = 0; i < cup.positions.size(); ++i) {
@@ -61,7 +61,7 @@ TEST(Occlusion, BesideAWallFollowsItsFormFactor) {
   Mesh wall = make_grid(1, 1, [](double u, double v) { return Vec3(200 * (u - 0.5), v, 0); });
   wall.normals.assign(wall.positions.size(), Vec3f::UnitZ());
   append(mesh, wall);
-  compute_occlusion(mesh, 4096);
+  compute_occlusion(mesh, 2048);
   for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
     const double d = static_cast<double>(mesh.positions[i].z());
     if (mesh.positions[i].x() != 0 || mesh.positions[i].y() != 0 || d < 0.1) continue;
