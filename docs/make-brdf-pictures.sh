@@ -10,13 +10,14 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 mesh=examples/garment/jacket.obj
 env=examples/environments/studio.hdr
+size=360x250
 
 # draw NAME OPTIONS... with the material on stdin
 draw() {
   name=$1
   shift
   cat > "$work/$name.json"
-  $sateen render "$mesh" --material "$work/$name.json" -o "$work/$name.png" --size 300x300 --background 0.02,0.02,0.02 \
+  $sateen render "$mesh" --material "$work/$name.json" -o "$work/$name.png" --size "$size" --background 0.02,0.02,0.02 \
     --occlusion none --rotate 0,25,0 "$@"
 }
 
@@ -60,12 +61,13 @@ echo "{$base, $ambient, $(fuzz 0.35 0.3 45 | sed 's/"tilt"/"azimuth": 180, "tilt
 row fuzz-ambient.png ambient-0 ambient-45 ambient-45-back ambient-90
 
 for m in velvet satin brushed-metal felt moss; do
-  $sateen render "$mesh" --material examples/materials/$m.json --env "$env" -o "$work/$m.png" --size 300x300 \
+  $sateen render "$mesh" --material examples/materials/$m.json --env "$env" -o "$work/$m.png" --size $size \
     --background 0.02,0.02,0.02 --occlusion none --rotate 0,25,0
 done
 row materials.png velvet satin brushed-metal felt moss
 
 mesh=$work/sphere.obj
+size=300x300
 awk 'BEGIN { pi = atan2(0, -1); n = 96; m = 48
   for (j = 0; j <= m; ++j) for (i = 0; i <= n; ++i) { p = 2 * pi * i / n; t = pi * j / m
     x = sin(t) * sin(p); y = -cos(t); z = sin(t) * cos(p)
