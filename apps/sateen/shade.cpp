@@ -44,10 +44,10 @@ void run(const Arguments& arguments) {
 
 void add_shade(CLI::App& parent) {
   auto arguments = std::make_shared<Arguments>();
-  CLI::App* command =
-      add_command(parent, "shade", "Shade pictures of normals and tangents with a material, without drawing",
-                  "sateen shade --normals shirt.normal.exr --tangents shirt.tangent.exr --material silk.ktx2 "
-                  "-o shirt.exr");
+  CLI::App* command = add_command(
+      parent, "shade", "Shade pictures of normals and tangents with a material, without drawing",
+      "sateen shade --normals jacket.normal.exr --tangents jacket.tangent.exr --material silk.ktx2 "
+      "-o jacket.exr");
   command
       ->add_option("--normals", arguments->normals,
                    "View-space normals as stored, row 0 on top; zero is empty")

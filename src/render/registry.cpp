@@ -15,6 +15,7 @@
 #include "sateen/io/file.h"
 #include "sateen/io/image.h"
 #include "sateen/io/ktx2.h"
+#include "sateen/matcap/decomposed_appearance.h"
 #include "sateen/matcap/matcap.h"
 #include "sateen/render/constant.h"
 
@@ -33,6 +34,7 @@ std::unique_ptr<Appearance> load_amc(const fs::path& path) {
 const Loaders& ktx2_kinds() {
   static const Loaders loaders{
       {"amc", load_amc},
+      {"matcap-decomposition", DecomposedAppearance::read},
   };
   return loaders;
 }
@@ -42,6 +44,7 @@ const Loaders& models() {
   static const Loaders loaders{
       {"constant", Constant::read},
       {"layered", LayeredAppearance::read},
+      {"matcap-decomposition", DecomposedAppearance::read_material},
   };
   return loaders;
 }
