@@ -3,21 +3,37 @@
 // line by line); the ambient terms are Patry's, "Samurai Shading" (2020), by table or as printed.
 // needs: surface.glsl hemisphere_table.glsl environment.glsl punctual.glsl fibre_diffuse.glsl ggx.glsl fuzz.glsl
 
+// Layers a material does not have are left out at compile time: layered_no_*.glsl and layered_slides.glsl in front of this
+// file define the switches otherwise.
+#ifndef LAYERED_REFLECTION
+#define LAYERED_REFLECTION true
+#endif
+#ifndef LAYERED_COMPENSATION
+#define LAYERED_COMPENSATION true
+#endif
+#ifndef LAYERED_FUZZ
+#define LAYERED_FUZZ true
+#endif
+#ifndef LAYERED_FUZZ_SLIDES
+#define LAYERED_FUZZ_SLIDES false
+#endif
+#ifndef LAYERED_SIMPLE_FUZZ
+#define LAYERED_SIMPLE_FUZZ true
+#endif
+
 uniform vec3 base_colour;
 uniform bool base_fibres;
 uniform vec2 base_axis;  // cosine and sine of the fibres' azimuth, as every *_axis here
 uniform float simple_fuzziness;
 
-uniform int ggx_on;  // 0: no reflection, 1: of lamps only, 2: of the surroundings too
 uniform float ggx_alpha_t;
 uniform float ggx_alpha_b;
 uniform vec2 ggx_axis;
 uniform vec3 ggx_f0;
-uniform int ggx_lobe_samples;
-uniform float ggx_mean_albedo;  // 1: no compensation
+uniform int ggx_lobe_samples;  // 0: no environment map to reflect
+uniform float ggx_mean_albedo;
 uniform sampler2D ggx_albedo_table;  // scale, bias
 
-uniform bool fuzz_on;
 uniform float fuzz_density;
 uniform float fuzz_alpha;
 uniform int fuzz_phase_kind;
@@ -29,7 +45,6 @@ uniform vec4 fuzz_visibility;
 uniform float fuzz_passing_albedo;  // Q
 uniform float fuzz_down_albedo;     // R
 uniform float fuzz_down_weight;     // 0 leaves P_s out
-uniform bool fuzz_slides;
 uniform vec3 fuzz_down_low;
 uniform vec3 fuzz_down_high;
 uniform sampler2D fuzz_scattering_table;  // P_s of a light; response of a view over G~
@@ -54,7 +69,7 @@ float layered_albedo(vec3 w) {
 }
 
 float layered_scattered_down(vec3 light) {
-  if (fuzz_slides) return fuzz_scattered_down_fit(fuzz_down_low, fuzz_down_high, light.z, dot(light, fuzz_fibre));
+  if (LAYERED_FUZZ_SLIDES) return fuzz_scattered_down_fit(fuzz_down_low, fuzz_down_high, light.z, dot(light, fuzz_fibre));
   return hemisphere_table(fuzz_scattering_table, layered_turned(light, fuzz_axis)).x;
 }
 
@@ -73,15 +88,15 @@ vec3 layered_direct(vec3 light, vec3 view) {
                                 : light.z * 0.3183098861837907;
     base = base_colour * diffuse;
   }
-  if (simple_fuzziness > 0.0) base = mix(base, layered_simple_fuzz(light, view), simple_fuzziness);
-  if (light.z > 0.0 && ggx_on > 0) {
+  if (LAYERED_SIMPLE_FUZZ) base = mix(base, layered_simple_fuzz(light, view), simple_fuzziness);
+  if (LAYERED_REFLECTION && light.z > 0.0) {
     vec3 u = layered_turned(light, ggx_axis);
     vec3 v = layered_turned(view, ggx_axis);
     vec3 f = ggx_brdf(vec2(ggx_alpha_t, ggx_alpha_b), ggx_f0, u, v);
-    if (ggx_mean_albedo < 1.0) f += ggx_multiple_scattering(ggx_f0, layered_albedo(u), layered_albedo(v), ggx_mean_albedo);
+    if (LAYERED_COMPENSATION) f += ggx_multiple_scattering(ggx_f0, layered_albedo(u), layered_albedo(v), ggx_mean_albedo);
     base += f * light.z;
   }
-  if (!fuzz_on) return base;
+  if (!LAYERED_FUZZ) return base;
   if (light.z <= 0.0) return vec3(0.0);
   float passing = exp(-fuzz_density / light.z);
   float down = fuzz_down_weight > 0.0 ? layered_scattered_down(light) : 0.0;
@@ -125,7 +140,7 @@ vec3 layered_reflected_surroundings(mat3 frame, vec3 view) {
   }
   vec2 albedo = hemisphere_table(ggx_albedo_table, v).xy;
   vec3 reflected = total > 0.0 ? sum / total * (ggx_f0 * albedo.x + albedo.y) : vec3(0.0);
-  if (ggx_mean_albedo < 1.0) {
+  if (LAYERED_COMPENSATION) {
     vec3 lobe = ggx_multiple_scattering(ggx_f0, 0.0, albedo.x + albedo.y, ggx_mean_albedo);
     vec3 bounces = lobe * (3.141592653589793 * (1.0 - ggx_mean_albedo));
     reflected += bounces * harmonics_lobe(frame[2], vec3(1.0, 0.6666666667, 0.25));
@@ -135,7 +150,7 @@ vec3 layered_reflected_surroundings(mat3 frame, vec3 view) {
 
 vec3 layered_fuzz_surroundings(mat3 frame, vec3 view) {
   float visibility = fuzz_visibility_fit(fuzz_visibility, fuzz_density, view.z);
-  if (fuzz_slides) {
+  if (LAYERED_FUZZ_SLIDES) {
     return fuzz_colour * harmonics_lobe(frame[2], vec3(1.0, 0.5, 0.0)) * (visibility * (1.0 - layered_scattered_down(view)));
   }
   vec3 v = layered_turned(view, fuzz_axis);
@@ -148,13 +163,13 @@ vec3 layered_fuzz_surroundings(mat3 frame, vec3 view) {
 
 vec3 layered_surroundings(mat3 frame, vec3 view) {
   vec3 base = layered_diffuse_surroundings(frame);
-  if (simple_fuzziness > 0.0) {
+  if (LAYERED_SIMPLE_FUZZ) {
     float response = fuzz_visibility_fit(fuzz_visibility, SIMPLE_DENSITY, view.z) * 0.5;
     vec3 fuzz = base_colour * harmonics_lobe(frame[2], vec3(1.0, 0.5, 0.0)) * (SIMPLE_COLOUR * response);
     base = mix(base, fuzz, simple_fuzziness);
   }
-  if (ggx_on > 1) base += layered_reflected_surroundings(frame, view);
-  if (!fuzz_on) return base;
+  if (LAYERED_REFLECTION && ggx_lobe_samples > 0) base += layered_reflected_surroundings(frame, view);
+  if (!LAYERED_FUZZ) return base;
   vec3 attenuation = fuzz_passing_albedo + fuzz_colour * (fuzz_down_weight * fuzz_down_albedo * (1.0 - fuzz_passing_albedo));
   return base * attenuation * exp(-fuzz_density / view.z) + layered_fuzz_surroundings(frame, view);
 }

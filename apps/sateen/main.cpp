@@ -78,6 +78,7 @@ void add_commands(CLI::App& app) {
   add_amc_convert(amc);
   CLI::App& brdf = add_noun(app, "brdf", "Reflectance models: evaluate, plot");
   add_brdf_eval(brdf);
+  add_brdf_plot(brdf);
   add_render(app);
   add_shade(app);
   CLI::App& maps = add_noun(app, "maps", "Texture maps: author, filter, compress");

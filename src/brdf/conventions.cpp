@@ -60,7 +60,8 @@ AnisotropicRoughness from_gltf(const AnisotropyParameters& gltf) {
 
 AnisotropyParameters to_gltf(const AnisotropicRoughness& roughness) {
   const AnisotropicRoughness r = ordered(roughness);
-  const double strength = r.alpha_b < 1 ? std::sqrt(std::max(0.0, (r.alpha_t - r.alpha_b) / (1 - r.alpha_b))) : 0;
+  const double strength =
+      r.alpha_b < 1 ? std::sqrt(std::max(0.0, (r.alpha_t - r.alpha_b) / (1 - r.alpha_b))) : 0;
   return {std::sqrt(r.alpha_b), strength, r.azimuth};
 }
 
@@ -102,7 +103,8 @@ FuzzParameters from_sheen(const SheenParameters& sheen) {
   FuzzParameters fuzz;
   const double strength = std::min(sheen.colour.maxCoeff(), 1.0);
   fuzz.colour = strength > 0 ? Vec3(sheen.colour / sheen.colour.maxCoeff()) : Vec3::Ones();
-  fuzz.density = strength > 0 ? invert([](double d) { return 1 - fuzz_passing_albedo(d); }, strength / 2, 0, 1) : 0;
+  fuzz.density =
+      strength > 0 ? invert([](double d) { return 1 - fuzz_passing_albedo(d); }, strength / 2, 0, 1) : 0;
   const double spread = charlie_spread(std::clamp(sheen.roughness, kLowestSheenRoughness, 1.0));
   fuzz.alpha = invert(flake_spread, spread, 1e-3, 1);
   fuzz.k = fuzz_k_of_alpha(fuzz.alpha);

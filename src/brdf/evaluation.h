@@ -24,7 +24,7 @@ using BrdfFunction = std::function<Vec3(const DirectionPair&)>;
 /// Names read_brdf knows: "fibre-diffuse", "ggx", "fuzz".
 std::span<const std::string> brdf_models();
 
-/// A model with parameters from a JSON object; docs/brdf.md lists the keys. `where` names the source in
+/// A model with parameters from a JSON object; docs/materials.md lists the keys. `where` names the source in
 /// messages. Values are BRDFs without the cosine (1/sr), Phi for fibre-diffuse, and for fuzz whatever "term"
 /// names. Throws Error naming file, key and value for a wrong one, and for keys the model does not know.
 BrdfFunction read_brdf(const std::string& model, const std::filesystem::path& parameters);

@@ -55,7 +55,17 @@ FuzzTable make_fuzz_table(const FuzzParameters& parameters, int size) {
     return Vec4(mean.x(), mean.y(), mean.z(), 0);
   });
   table.passing = fuzz_passing_albedo(parameters.density);
-  table.scattered_down = fuzz_scattered_down_albedo(fuzz, 1e-4);
+  // R by a product rule over the table's own P_s, which is even about the fibre's plane.
+  const GaussRule& rule = gauss_rule(24);
+  for (std::size_t i = 0; i < rule.nodes.size(); ++i) {
+    const double cosine = std::sqrt(rule.nodes[i]);
+    const double sine = std::sqrt(1 - rule.nodes[i]);
+    for (std::size_t j = 0; j < rule.nodes.size(); ++j) {
+      const double phi = kPi * rule.nodes[j];
+      const Vec3 light(sine * std::cos(phi), sine * std::sin(phi), cosine);
+      table.scattered_down += rule.weights[i] * rule.weights[j] * table.scattering(light).x();
+    }
+  }
   return table;
 }
 

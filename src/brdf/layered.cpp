@@ -241,7 +241,14 @@ bool LayeredAppearance::set_environment(const Image& latitude_longitude) {
 
 ShaderBinding LayeredAppearance::shader() const {
   ShaderBinding binding;
-  binding.files = {"layered.glsl"};
+  if (!material_.specular) binding.files.emplace_back("layered_no_reflection.glsl");
+  if (!material_.specular || !material_.specular->energy_compensation) {
+    binding.files.emplace_back("layered_no_compensation.glsl");
+  }
+  if (!material_.fuzz) binding.files.emplace_back("layered_no_fuzz.glsl");
+  if (material_.fuzz_slides) binding.files.emplace_back("layered_slides.glsl");
+  if (material_.simple_fuzziness == 0) binding.files.emplace_back("layered_no_simple_fuzz.glsl");
+  binding.files.emplace_back("layered.glsl");
   binding.function = "layered";
   const auto set = [&](const char* name, UniformValue value) {
     binding.uniforms.push_back({name, std::move(value)});
@@ -286,19 +293,17 @@ ShaderBinding LayeredAppearance::shader() const {
   axis("base_axis", material_.base_azimuth);
   number("simple_fuzziness", material_.simple_fuzziness);
 
-  set("ggx_on", material_.specular ? (lighting_.environment ? 2 : 1) : 0);
   if (material_.specular) {
     const GgxParameters& ggx = *material_.specular;
     number("ggx_alpha_t", std::max(ggx.roughness.alpha_t, kMinimumAlpha));
     number("ggx_alpha_b", std::max(ggx.roughness.alpha_b, kMinimumAlpha));
     axis("ggx_axis", ggx.roughness.azimuth);
     set("ggx_f0", narrow(ggx.f0));
-    set("ggx_lobe_samples", lobe_samples());
+    set("ggx_lobe_samples", lighting_.environment ? lobe_samples() : 0);
     number("ggx_mean_albedo", ggx.energy_compensation ? mean_albedo_ : 1);
     binding.textures.push_back({"ggx_albedo_table", albedo_.texture()});
   }
 
-  set("fuzz_on", material_.fuzz ? 1 : 0);
   set("fuzz_visibility",
       Vec4f(static_cast<float>(kVisibilitySlides[0]), static_cast<float>(kVisibilitySlides[1]),
             static_cast<float>(kVisibilitySlides[2]), static_cast<float>(kVisibilitySlides[3])));
@@ -317,7 +322,6 @@ ShaderBinding LayeredAppearance::shader() const {
     number("fuzz_passing_albedo",
            material_.fuzz_slides ? fuzz_passing_albedo_slides(fuzz.density) : fuzz_table_.passing);
     number("fuzz_down_albedo", fuzz_table_.scattered_down);
-    set("fuzz_slides", material_.fuzz_slides ? 1 : 0);
     number("fuzz_down_weight", material_.fuzz_scattered_down ? 1 : 0);
     if (material_.fuzz_slides) {
       const std::vector<double>& c = fuzz_polynomial_.coefficients;

@@ -10,7 +10,8 @@
 
 namespace sateen {
 
-/// Keys alpha_t, alpha_b, azimuth, or matrix ([Sxx, Sxy, Syy]) in their place; f0; energy_compensation.
+/// Keys alpha_t, alpha_b, azimuth; in their place matrix ([Sxx, Sxy, Syy]), or convention (gltf, materialx,
+/// blender, filament; conventions.h) with roughness, anisotropy, rotation; f0; energy_compensation.
 GgxParameters read_ggx(JsonObject& json);
 
 /// Keys density, alpha or k, phase, tilt, azimuth, color.

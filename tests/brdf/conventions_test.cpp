@@ -48,8 +48,8 @@ TEST(Conventions, NoAnisotropyMeansEqualAlphasEverywhere) {
 }
 
 TEST(Conventions, KnownValues) {
-  // glTF: strength 1 is fully rough along the direction. Blender and MaterialX keep the product of the alphas. Filament's
-  // strength 1 is a mirror across.
+  // glTF: strength 1 is fully rough along the direction. Blender and MaterialX keep the product of the
+  // alphas. Filament's strength 1 is a mirror across.
   EXPECT_NEAR(from_gltf({0.4, 1, 0}).alpha_t, 1, 1e-12);
   EXPECT_NEAR(from_gltf({0.4, 0.5, 0}).alpha_t, 0.16 + 0.84 * 0.25, 1e-12);
   EXPECT_NEAR(from_blender({0.5, 1, 0}).alpha_t, 0.25 / std::sqrt(0.1), 1e-12);
@@ -83,7 +83,8 @@ TEST(Conventions, SheenSurvivesTheRoundTrip) {
 }
 
 TEST(Conventions, SheenKeepsTheSpreadOfNormals) {
-  // The mean squared cosine of the matched fibre's flakes, summed over the sphere, is Charlie's 1 / (3 + 1 / r^2).
+  // The mean squared cosine of the matched fibre's flakes, summed over the sphere, is Charlie's 1 / (3 + 1 /
+  // r^2).
   const FuzzParameters fuzz = from_sheen({Vec3::Ones(), 0.5});
   double total = 0;
   const double second = test::midpoint_hemisphere(
