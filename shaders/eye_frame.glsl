@@ -20,7 +20,9 @@ vec3 perspective_equation4(vec3 direction, vec3 position) {
 // A normal that interpolation or a normal map turned away from the eye has no entry in a table of seen normals: the
 // nearest entry is on the rim.
 vec3 seen_normal(vec3 eye_normal) {
-  return eye_normal.z < 0.0 ? vec3(normalize(eye_normal.xy), 0.0) : eye_normal;
+  if (eye_normal.z >= 0.0) return eye_normal;
+  float reach = length(eye_normal.xy);
+  return reach > 0.0 ? vec3(eye_normal.xy / reach, 0.0) : vec3(1.0, 0.0, 0.0);
 }
 
 // Equation (3): the picture-plane angle of a direction in turns, [0, 1); 0 for one along the view axis.

@@ -14,5 +14,7 @@ void add_amc_symmetry(CLI::App& parent);
 void add_maps_aniso_author(CLI::App& parent);
 void add_maps_aniso_decode(CLI::App& parent);
 void add_maps_aniso_filter(CLI::App& parent);
+void add_render(CLI::App& parent);
+void add_shade(CLI::App& parent);
 
 }  // namespace sateen::cli

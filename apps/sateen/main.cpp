@@ -81,6 +81,8 @@ void add_commands(CLI::App& app) {
   add_maps_aniso_author(aniso);
   add_maps_aniso_decode(aniso);
   add_maps_aniso_filter(aniso);
+  add_render(app);
+  add_shade(app);
 }
 
 int run(int argc, char** argv) {

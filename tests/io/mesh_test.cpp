@@ -61,6 +61,13 @@ TEST(MeshFile, ObjKeepsUvsUpAndJoinsCornersButNotSeams) {
   EXPECT_EQ(read_model(folder / "seam.obj").mesh.positions.size(), 5u);
 }
 
+TEST(MeshFile, TheExampleGarmentIsWhole) {
+  const Model model = read_model(examples() / "garment" / "jacket.obj");
+  EXPECT_EQ(model.mesh.triangles.size(), 2u * 6165u);
+  EXPECT_EQ(model.mesh.uvs.size(), 6816u);  // distinct corners: awk and sort -u say so
+  for (const Vec2f& uv : model.mesh.uvs) EXPECT_TRUE(uv.minCoeff() >= 0 && uv.maxCoeff() <= 1);
+}
+
 TEST(MeshFile, PolygonsBecomeTrianglesConcaveOnesToo) {
   const TemporaryFolder folder;
   write_text(folder / "quad.obj", fmt::format("{}f 1 2 3 4\n", kSquare));
