@@ -50,15 +50,16 @@ void ImageRowReader::read(std::span<float> out) {
     if (!fine) fail(path_, "is truncated or corrupt: " + input.geterror());
   };
   if (spec.tile_width == 0) {
-    check(input.read_scanlines(0, 0, next_, next_ + count, 0, 0, channels(), OIIO::TypeDesc::FLOAT, out.data()));
+    check(input.read_scanlines(0, 0, next_, next_ + count, 0, 0, channels(), OIIO::TypeDesc::FLOAT,
+                               out.data()));
   } else {
     for (int y = next_; y < next_ + count; ++y) {
       if (y >= file_->first + file_->count) {
         file_->first = y - y % spec.tile_height;
         file_->count = std::min(spec.tile_height, height() - file_->first);
         file_->tiles.resize(row * static_cast<std::size_t>(file_->count));
-        check(input.read_tiles(0, 0, 0, width(), file_->first, file_->first + file_->count, 0, 1, 0, channels(),
-                               OIIO::TypeDesc::FLOAT, file_->tiles.data()));
+        check(input.read_tiles(0, 0, 0, width(), file_->first, file_->first + file_->count, 0, 1, 0,
+                               channels(), OIIO::TypeDesc::FLOAT, file_->tiles.data()));
       }
       std::copy_n(file_->tiles.begin() + static_cast<std::ptrdiff_t>(row) * (y - file_->first), row,
                   out.begin() + static_cast<std::ptrdiff_t>(row) * (y - next_));
@@ -80,8 +81,8 @@ struct ImageRowWriter::File {
   std::unique_ptr<OIIO::ImageOutput> output;
 };
 
-ImageRowWriter::ImageRowWriter(const std::filesystem::path& file, const std::filesystem::path& name, int width,
-                               int height, int channels, RowSamples samples)
+ImageRowWriter::ImageRowWriter(const std::filesystem::path& file, const std::filesystem::path& name,
+                               int width, int height, int channels, RowSamples samples)
     : name_(name), width_(width), channels_(channels), file_(std::make_unique<File>()) {
   static const OIIO::TypeDesc kTypes[] = {OIIO::TypeDesc::UINT8, OIIO::TypeDesc::UINT16, OIIO::TypeDesc::HALF,
                                           OIIO::TypeDesc::FLOAT};
@@ -90,7 +91,8 @@ ImageRowWriter::ImageRowWriter(const std::filesystem::path& file, const std::fil
   spec["Software"] = "Sateen";
   file_->output = OIIO::ImageOutput::create(file.string());
   if (!file_->output) fail(name, "unknown picture type");
-  if (!file_->output->open(file.string(), spec)) fail(name, "cannot be written: " + file_->output->geterror());
+  if (!file_->output->open(file.string(), spec))
+    fail(name, "cannot be written: " + file_->output->geterror());
 }
 
 ImageRowWriter::~ImageRowWriter() = default;

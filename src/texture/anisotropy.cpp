@@ -54,11 +54,13 @@ Mat2 guarded(const Mat2& s) {
   // Most matrices are well inside; the bounds are checked without a square root.
   const double trace = s(0, 0) + s(1, 1);
   const double det = s.determinant();
-  const bool below = det - kMinEigenvalue * trace + kMinEigenvalue * kMinEigenvalue < 0 || trace < 2 * kMinEigenvalue;
+  const bool below =
+      det - kMinEigenvalue * trace + kMinEigenvalue * kMinEigenvalue < 0 || trace < 2 * kMinEigenvalue;
   const bool above = 1 - trace + det < 0 || trace > 2;
   if (!below && !above) return s;
   const Eigen2 e = eigenvalues(s);
-  return symmetric(std::clamp(e.large, kMinEigenvalue, 1.0), std::clamp(e.small, kMinEigenvalue, 1.0), e.angle);
+  return symmetric(std::clamp(e.large, kMinEigenvalue, 1.0), std::clamp(e.small, kMinEigenvalue, 1.0),
+                   e.angle);
 }
 
 AnisotropyEncoding anisotropy_encoding_from_name(const std::string& name) {
@@ -120,7 +122,8 @@ Vec3 principal_axis(const Mat3& s, const Vec3& fallback) {
   const double middle = mean + 2 * spread * std::cos(angle - 2 * kPi / 3);
   const double gap = (largest - middle) / largest;
   if (!(gap > kUncertain)) return fallback;
-  // adj(S - lambda I) = (difference of eigenvalues)^2 v v^T: any column of it is v; the longest is the safest.
+  // adj(S - lambda I) = (difference of eigenvalues)^2 v v^T: any column of it is v; the longest is the
+  // safest.
   const Mat3 a = s - largest * Mat3::Identity();
   const Vec3 columns[3] = {a.col(1).cross(a.col(2)), a.col(2).cross(a.col(0)), a.col(0).cross(a.col(1))};
   const Vec3* best = &columns[0];

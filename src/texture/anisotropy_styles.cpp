@@ -28,7 +28,8 @@ double half_turns(double angle) {
 }  // namespace
 
 AnisotropicAlpha lobe_of(const UvRoughness& style) {
-  return {unit(style.along) * unit(style.along), unit(style.across) * unit(style.across), 2 * kPi * style.rotation};
+  return {unit(style.along) * unit(style.along), unit(style.across) * unit(style.across),
+          2 * kPi * style.rotation};
 }
 
 UvRoughness uv_roughness_of(const AnisotropicAlpha& lobe) {

@@ -11,8 +11,8 @@
 namespace sateen {
 namespace {
 
-// Channels of a block as four planes of 16 floats: every inner loop below runs over the 16 texels of one plane, which
-// compilers turn into vector code.
+// Channels of a block as four planes of 16 floats: every inner loop below runs over the 16 texels of one
+// plane, which compilers turn into vector code.
 using Plane = std::array<float, 16>;
 using Planes = std::array<Plane, 4>;
 
@@ -80,7 +80,8 @@ const QuantTable& quant_table(int bits, PBits p_mode, int p) {
     }
   };
   static const Tables tables;
-  return tables.of[static_cast<std::size_t>(bits)][p_mode == PBits::none ? 0 : static_cast<std::size_t>(1 + p)];
+  return tables
+      .of[static_cast<std::size_t>(bits)][p_mode == PBits::none ? 0 : static_cast<std::size_t>(1 + p)];
 }
 
 using RawEnds = std::array<std::array<float, 4>, 2>;
@@ -101,7 +102,8 @@ Endpoints quantised(const RawEnds& raw, const SubsetFormat& format, std::array<i
 }
 
 /// Squared error of the subset (weights 1 inside, 0 outside) with the best index of every texel.
-SubsetCode coded(const Planes& texels, const Plane& inside, const SubsetFormat& format, const Endpoints& ends) {
+SubsetCode coded(const Planes& texels, const Plane& inside, const SubsetFormat& format,
+                 const Endpoints& ends) {
   SubsetCode code;
   code.ends = ends;
   const float top = static_cast<float>((1 << format.index_bits) - 1);
@@ -166,7 +168,8 @@ RawEnds principal_line(const Planes& texels, const Plane& inside, const SubsetFo
       cov[channel(a)][channel(b)] = cov[channel(b)][channel(a)] = sum;
     }
   }
-  // Power iteration from the row of the largest variance: the error of a slightly wrong axis is of second order.
+  // Power iteration from the row of the largest variance: the error of a slightly wrong axis is of second
+  // order.
   int widest = 0;
   for (int c = 1; c < format.channels; ++c) {
     if (cov[channel(c)][channel(c)] > cov[channel(widest)][channel(widest)]) widest = c;
@@ -176,7 +179,8 @@ RawEnds principal_line(const Planes& texels, const Plane& inside, const SubsetFo
     std::array<float, 4> next{};
     float largest = 0;
     for (int a = 0; a < format.channels; ++a) {
-      for (int b = 0; b < format.channels; ++b) next[channel(a)] += cov[channel(a)][channel(b)] * axis[channel(b)];
+      for (int b = 0; b < format.channels; ++b)
+        next[channel(a)] += cov[channel(a)][channel(b)] * axis[channel(b)];
       largest = std::max(largest, std::abs(next[channel(a)]));
     }
     if (!(largest > 0)) break;
@@ -261,8 +265,8 @@ std::array<int, 2> nearest_p(const RawEnds& raw, const SubsetFormat& format) {
 }
 
 /// Codes the subset with the likeliest p-bits, or with all, and keeps the best.
-void keep_best(const Planes& texels, const Plane& inside, const SubsetFormat& format, const RawEnds& raw, bool all_p,
-               SubsetCode& best) {
+void keep_best(const Planes& texels, const Plane& inside, const SubsetFormat& format, const RawEnds& raw,
+               bool all_p, SubsetCode& best) {
   const auto attempt = [&](std::array<int, 2> p) {
     const SubsetCode code = coded(texels, inside, format, quantised(raw, format, p));
     if (code.error < best.error) best = code;
@@ -295,11 +299,13 @@ class BitWriter {
  public:
   void put(int value, int bits) {
     for (int i = 0; i < bits; ++i, ++at_) {
-      if (((value >> i) & 1) != 0) words_[static_cast<std::size_t>(at_ / 64)] |= std::uint64_t{1} << (at_ % 64);
+      if (((value >> i) & 1) != 0)
+        words_[static_cast<std::size_t>(at_ / 64)] |= std::uint64_t{1} << (at_ % 64);
     }
   }
   void store(std::span<std::byte, 16> out) const {
-    for (std::size_t i = 0; i < 16; ++i) out[i] = static_cast<std::byte>((words_[i / 8] >> (i % 8 * 8)) & 0xff);
+    for (std::size_t i = 0; i < 16; ++i)
+      out[i] = static_cast<std::byte>((words_[i / 8] >> (i % 8 * 8)) & 0xff);
   }
 
  private:
@@ -426,7 +432,8 @@ std::array<PartitionGuess, 64> guess_partitions(const Planes& texels, int channe
       second[m] = sum;
       first[m] = total[m] - sum;
     }
-    guesses[static_cast<std::size_t>(partition)] = {residual(first, 16 - count) + residual(second, count), partition};
+    guesses[static_cast<std::size_t>(partition)] = {residual(first, 16 - count) + residual(second, count),
+                                                    partition};
   }
   return guesses;
 }
@@ -444,8 +451,8 @@ void try_two_subsets(const Planes& texels, int mode, const SubsetFormat& format,
 }
 
 /// Endpoint channels in the specification's order: all of red, then green, blue, alpha.
-void put_endpoints(BitWriter& bits, std::span<const SubsetCode> subsets, std::size_t first, std::size_t channels,
-                   int width) {
+void put_endpoints(BitWriter& bits, std::span<const SubsetCode> subsets, std::size_t first,
+                   std::size_t channels, int width) {
   for (std::size_t c = first; c < first + channels; ++c) {
     for (const SubsetCode& subset : subsets) {
       for (const auto& end : subset.ends.stored) bits.put(end[c], width);

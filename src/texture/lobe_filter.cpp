@@ -12,10 +12,11 @@
 namespace sateen {
 namespace {
 
-constexpr std::array<std::pair<FilterMethod, const char*>, 4> kNames{{{FilterMethod::sggx, "sggx"},
-                                                                      {FilterMethod::sggx_variance, "sggx-variance"},
-                                                                      {FilterMethod::lean, "lean"},
-                                                                      {FilterMethod::naive, "naive"}}};
+constexpr std::array<std::pair<FilterMethod, const char*>, 4> kNames{
+    {{FilterMethod::sggx, "sggx"},
+     {FilterMethod::sggx_variance, "sggx-variance"},
+     {FilterMethod::lean, "lean"},
+     {FilterMethod::naive, "naive"}}};
 
 // Steeper normals would give LEAN infinite slopes: 87 degrees.
 constexpr double kMinZ = 0.05;

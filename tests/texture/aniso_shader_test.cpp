@@ -30,8 +30,10 @@ TextureData texture_of(const Image& image) {
 
 /// Runs `main_text` on every texel of `input`.
 Image run(const Image& input, const std::string& main_text) {
-  const std::string text = "uniform sampler2D map;\nout vec4 result;\nvoid main() {\n"
-                           "  vec3 c = texelFetch(map, ivec2(gl_FragCoord.xy), 0).rgb;\n" + main_text + "}\n";
+  const std::string text =
+      "uniform sampler2D map;\nout vec4 result;\nvoid main() {\n"
+      "  vec3 c = texelFetch(map, ivec2(gl_FragCoord.xy), 0).rgb;\n" +
+      main_text + "}\n";
   const gpu::ShaderFile main_file{"test.frag", text};
   const gpu::Program program(std::array{gpu::shader_file("picture.vert")},
                              std::array{gpu::shader_file("aniso_map.glsl"), main_file});
@@ -52,7 +54,8 @@ Image run(const Image& input, const std::string& main_text) {
   const Image read = target.read();
   Image upright(kSize, kSize, 4);
   for (int y = 0; y < kSize; ++y) {
-    for (int x = 0; x < kSize; ++x) std::ranges::copy(read.pixel(x, kSize - 1 - y), upright.pixel(x, y).begin());
+    for (int x = 0; x < kSize; ++x)
+      std::ranges::copy(read.pixel(x, kSize - 1 - y), upright.pixel(x, y).begin());
   }
   return upright;
 }
@@ -67,8 +70,11 @@ TEST(AnisoShader, DecodesAsTheReferenceDoes) {
     Image input(kSize, kSize, 4);
     for (int y = 0; y < kSize; ++y) {
       for (int x = 0; x < kSize; ++x) {
-        const Vec3 c = x < kSize / 2 ? encode_anisotropy(ggx_matrix({alpha(generator), alpha(generator), 7 * alpha(generator)}), encoding)
-                                     : Vec3(value(generator), value(generator), value(generator));
+        const Vec3 c =
+            x < kSize / 2
+                ? encode_anisotropy(ggx_matrix({alpha(generator), alpha(generator), 7 * alpha(generator)}),
+                                    encoding)
+                : Vec3(value(generator), value(generator), value(generator));
         for (int k = 0; k < 3; ++k) input.at(x, y, k) = static_cast<float>(c[k]);
       }
     }
@@ -102,7 +108,8 @@ TEST(AnisoShader, FrameIsTheSmallestRotation) {
     }
   }
   for (int column = 0; column < 3; ++column) {
-    const Image out = run(input, "  result = vec4(normal_map_frame(decode_normal_xy(c.xy))[" + std::to_string(column) + "], 1.0);\n");
+    const Image out = run(input, "  result = vec4(normal_map_frame(decode_normal_xy(c.xy))[" +
+                                     std::to_string(column) + "], 1.0);\n");
     for (int y = 0; y < kSize; ++y) {
       for (int x = 0; x < kSize; ++x) {
         const Vec3 n = Vec3(x / 20.0 - 1.6, y / 20.0 - 1.6, 1).normalized();

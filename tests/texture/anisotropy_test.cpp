@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "sateen/texture/anisotropy.h"
 
+#include <Eigen/Eigenvalues>
 #include <random>
 
-#include <Eigen/Eigenvalues>
 #include <gtest/gtest.h>
 
 #include "sateen/texture/anisotropy_styles.h"
@@ -142,8 +142,8 @@ TEST(Sggx, MeetingEigenvaluesGiveTheMeanNormal) {
   const Vec3 up = Vec3::UnitZ();
   EXPECT_EQ(principal_axis(Mat3::Identity(), up), up);
   EXPECT_EQ(principal_axis(Mat3::Zero(), up), up);
-  // Opposing normals 47 degrees to either side, one a little more often: the largest axis lies in the surface, and power
-  // iteration finds it.
+  // Opposing normals 47 degrees to either side, one a little more often: the largest axis lies in the
+  // surface, and power iteration finds it.
   const double a = radians(47);
   const Mat2 sharp = ggx_matrix({0.05, 0.05, 0});
   const Vec3 left(-std::sin(a), 0, std::cos(a));
@@ -186,8 +186,8 @@ TEST(Styles, MeanWhatTheirProgramsSay) {
 TEST(Styles, RoughnessZeroAndOneAreLobes) {
   for (const double r : {0.0, 1.0, -1.0, 2.0}) {
     for (const AnisotropicAlpha& lobe :
-         {lobe_of(UvRoughness{r, r, 0}), lobe_of(GltfAnisotropy{r, 1, 0}), lobe_of(BlenderAnisotropy{r, 1, 0}),
-          lobe_of(SubstanceAnisotropy{r, 1, 0})}) {
+         {lobe_of(UvRoughness{r, r, 0}), lobe_of(GltfAnisotropy{r, 1, 0}),
+          lobe_of(BlenderAnisotropy{r, 1, 0}), lobe_of(SubstanceAnisotropy{r, 1, 0})}) {
       const AnisotropicAlpha back = ggx_alphas(ggx_matrix(lobe));
       EXPECT_GE(back.b, kMinAlpha * 0.999);
       EXPECT_LE(back.t, 1);

@@ -113,7 +113,9 @@ TEST(LobeChain, SlopeVarianceAddsOnceOrTwice) {
   const auto ridges = [&](int x, int) {
     return LobeTexel{Vec3(x % 2 == 0 ? m : -m, 0, 1).normalized(), ggx_matrix({alpha, alpha, 0})};
   };
-  const auto at_level_1 = [&](FilterMethod method) { return chain(Texels(8, 8, ridges), options_for(method)).at(1, 0, 0); };
+  const auto at_level_1 = [&](FilterMethod method) {
+    return chain(Texels(8, 8, ridges), options_for(method)).at(1, 0, 0);
+  };
   const auto check = [&](FilterMethod method, double times, double tolerance) {
     const LobeTexel t = at_level_1(method);
     EXPECT_NEAR((t.normal - Vec3::UnitZ()).norm(), 0, 1e-5);
@@ -193,7 +195,9 @@ TEST(LobeChain, IsotropicOutputHasOneAlpha) {
 }
 
 TEST(LobeChain, DoesNotDependOnTheNumberOfThreads) {
-  const auto run = [] { return chain(Texels(67, 45, weave), options_for(FilterMethod::sggx_variance, MipKernel::kaiser)); };
+  const auto run = [] {
+    return chain(Texels(67, 45, weave), options_for(FilterMethod::sggx_variance, MipKernel::kaiser));
+  };
   limit_threads(1);
   Collected one = run();
   limit_threads(0);

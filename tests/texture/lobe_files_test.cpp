@@ -45,7 +45,8 @@ Image lobes(int width, int height, AnisotropyEncoding encoding = AnisotropyEncod
   return image;
 }
 
-LobeMapFiles maps_of(const fs::path& normals, const fs::path& anisotropy = {}, const fs::path& roughness = {}) {
+LobeMapFiles maps_of(const fs::path& normals, const fs::path& anisotropy = {},
+                     const fs::path& roughness = {}) {
   LobeMapFiles files;
   files.normals = normals;
   files.anisotropy = anisotropy;
