@@ -153,11 +153,19 @@ void filter(benchmark::State& state, MipKernel kernel) {
   report(state);
 }
 
-#define SATEEN_CHAIN(name, ...) \
-  BENCHMARK_CAPTURE(chain, name, __VA_ARGS__)->Unit(benchmark::kMillisecond)->UseRealTime()->Iterations(1)
+#define SATEEN_CHAIN(name, ...)               \
+  BENCHMARK_CAPTURE(chain, name, __VA_ARGS__) \
+      ->Unit(benchmark::kMillisecond)         \
+      ->UseRealTime()                         \
+      ->MeasureProcessCPUTime()               \
+      ->Iterations(1)
 
-BENCHMARK(io)->Unit(benchmark::kMillisecond)->UseRealTime()->Iterations(1);
-BENCHMARK_CAPTURE(filter, box, MipKernel::box)->Unit(benchmark::kMillisecond)->UseRealTime()->Iterations(1);
+BENCHMARK(io)->Unit(benchmark::kMillisecond)->UseRealTime()->MeasureProcessCPUTime()->Iterations(1);
+BENCHMARK_CAPTURE(filter, box, MipKernel::box)
+    ->Unit(benchmark::kMillisecond)
+    ->UseRealTime()
+    ->MeasureProcessCPUTime()
+    ->Iterations(1);
 BENCHMARK_CAPTURE(filter, kaiser, MipKernel::kaiser)
     ->Unit(benchmark::kMillisecond)
     ->UseRealTime()

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "sateen/core/error.h"
+#include "sateen/io/file.h"
 
 namespace sateen {
 namespace {
@@ -20,6 +21,8 @@ namespace {
 }  // namespace
 
 struct ImageRowReader::File {
+  // A JPEG is decoded whole: only read_data notices what libjpeg quietly fills with grey.
+  Image whole;
   std::unique_ptr<OIIO::ImageInput> input;
   // Of tiled files a whole row of tiles is decoded at once: rows [first, first + count).
   std::vector<float> tiles;
@@ -30,6 +33,13 @@ struct ImageRowReader::File {
 ImageRowReader::ImageRowReader(const std::filesystem::path& path)
     : path_(path), info_(read_image_info(path)), file_(std::make_unique<File>()) {
   info_.channels = std::min(info_.channels, 4);
+  if (const std::string extension = extension_of(path); extension == ".jpg" || extension == ".jpeg") {
+    file_->whole = read_data(path);
+    info_.width = file_->whole.width;
+    info_.height = file_->whole.height;
+    info_.channels = file_->whole.channels;
+    return;
+  }
   OIIO::ImageSpec wishes;
   wishes["oiio:UnassociatedAlpha"] = 1;
   file_->input = OIIO::ImageInput::open(path.string(), &wishes);
@@ -44,6 +54,12 @@ ImageRowReader::~ImageRowReader() = default;
 void ImageRowReader::read(std::span<float> out) {
   const std::size_t row = static_cast<std::size_t>(width()) * static_cast<std::size_t>(channels());
   const int count = static_cast<int>(out.size() / row);
+  if (!file_->whole.empty()) {
+    std::copy_n(file_->whole.data.begin() + static_cast<std::ptrdiff_t>(row) * next_, out.size(),
+                out.begin());
+    next_ += count;
+    return;
+  }
   OIIO::ImageInput& input = *file_->input;
   const OIIO::ImageSpec& spec = input.spec();
   const auto check = [&](bool fine) {

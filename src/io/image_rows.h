@@ -10,7 +10,8 @@
 namespace sateen {
 
 /// Reads a data picture from top to bottom, a few rows at a time, so that pictures larger than memory can be
-/// worked on. Values as read_data gives them: integers scaled to [0, 1], no colour conversion.
+/// worked on; a JPEG is held whole. Values as read_data gives them: integers scaled to [0, 1], no colour
+/// conversion.
 class ImageRowReader {
  public:
   /// Throws Error as read_image_info does, and for a picture its EXIF data turn (rows then are no rows of the
