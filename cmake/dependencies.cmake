@@ -6,7 +6,8 @@ find_package(TBB REQUIRED)
 find_package(nlohmann_json REQUIRED)
 find_package(assimp REQUIRED)
 find_package(JPEG REQUIRED)
-find_package(embree 3 REQUIRED)
+# Debian 12 has version 3, Ubuntu 24.04 version 4.
+find_package(embree REQUIRED)
 find_package(OpenCV REQUIRED COMPONENTS core imgproc imgcodecs videoio calib3d)
 find_package(PkgConfig REQUIRED)
 # OpenImageIO's own CMake config needs the tools package; pkg-config does not.

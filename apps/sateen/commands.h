@@ -11,6 +11,8 @@ void add_amc_convert(CLI::App& parent);
 void add_amc_info(CLI::App& parent);
 void add_amc_pictures(CLI::App& parent);
 void add_amc_symmetry(CLI::App& parent);
+void add_brdf_eval(CLI::App& parent);
+void add_capture_build(CLI::App& parent);
 void add_maps_aniso_author(CLI::App& parent);
 void add_maps_aniso_decode(CLI::App& parent);
 void add_maps_aniso_filter(CLI::App& parent);

@@ -76,13 +76,17 @@ void add_commands(CLI::App& app) {
   add_amc_info(amc);
   add_amc_pictures(amc);
   add_amc_convert(amc);
+  CLI::App& brdf = add_noun(app, "brdf", "Reflectance models: evaluate, plot");
+  add_brdf_eval(brdf);
+  add_render(app);
+  add_shade(app);
   CLI::App& maps = add_noun(app, "maps", "Texture maps: author, filter, compress");
   CLI::App& aniso = add_noun(maps, "aniso", "Anisotropy maps: author, filter with normals, decode");
   add_maps_aniso_author(aniso);
   add_maps_aniso_decode(aniso);
   add_maps_aniso_filter(aniso);
-  add_render(app);
-  add_shade(app);
+  CLI::App& capture = add_noun(app, "capture", "From a camera and a turning sphere to an Anisotropic MatCap");
+  add_capture_build(capture);
 }
 
 int run(int argc, char** argv) {

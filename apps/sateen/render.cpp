@@ -129,9 +129,9 @@ void run(const Arguments& arguments) {
 
 void add_render(CLI::App& parent) {
   auto arguments = std::make_shared<Arguments>();
-  CLI::App* command =
-      add_command(parent, "render", "Draw a mesh with a material, without a screen",
-                  "sateen render examples/garment.glb --material silk.ktx2 -o garment.png --rotate 0,30,0");
+  CLI::App* command = add_command(
+      parent, "render", "Draw a mesh with a material, without a screen",
+      "sateen render examples/garment/jacket.obj --material silk.ktx2 --rotate 0,25,0 -o jacket.png");
   add_scene_options(*command, arguments->scene);
   command
       ->add_option("-o,--output", arguments->output,

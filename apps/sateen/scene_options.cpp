@@ -62,6 +62,14 @@ void add_scene_options(CLI::App& command, SceneArguments& arguments) {
   command.add_option("--normal-scale", arguments.normal_scale, "Strength of normal maps");
   command.add_option("--direction-map", arguments.direction_map,
                      "Tangent directions as RG = 0.5 + 0.5 * direction along (u, v)");
+  CLI::Option* environment = command.add_option(
+      "--env", arguments.environment,
+      "Latitude-longitude picture (.hdr, .exr) that lights \"layered\" materials; its middle is behind "
+      "the object");
+  command
+      .add_option("--env-rotate", arguments.environment_turn,
+                  "Turns it about the vertical, degrees, counter-clockwise seen from above")
+      ->needs(environment);
   command.add_option("--perspective", arguments.perspective, "How directions are corrected for perspective")
       ->check(CLI::IsMember({"rotation", "equation4", "none"}));
   CLI::Option* naive =
@@ -96,6 +104,8 @@ Scene load(const SceneArguments& arguments) {
   options.normal_map = arguments.normal_map;
   options.normal_scale = static_cast<float>(arguments.normal_scale);
   options.direction_map = arguments.direction_map;
+  options.environment = arguments.environment;
+  options.environment_turn = radians(arguments.environment_turn);
   options.switches = switches(arguments);
   options.progress = progress_bar("Preparing");
   return load_scene(arguments.mesh, options);

@@ -21,6 +21,8 @@ struct SceneArguments {
   std::string normal_map;
   double normal_scale = 1;
   std::string direction_map;
+  std::string environment;
+  double environment_turn = 0;
   std::string perspective = "rotation";
   bool no_cyclic_fix = false;
   bool per_fragment = false;

@@ -6,6 +6,7 @@
 #include "command.h"
 #include "commands.h"
 #include "sateen/io/image.h"
+#include "sateen/light/environment.h"
 #include "sateen/render/registry.h"
 
 namespace sateen::cli {
@@ -21,11 +22,14 @@ struct Arguments {
   fs::path uvs;
   fs::path curvature;
   fs::path material;
+  fs::path environment;
   fs::path output;
 };
 
 void run(const Arguments& arguments) {
-  const auto appearance = load_appearance(arguments.material);
+  const auto appearance = arguments.environment.empty()
+                              ? load_appearance(arguments.material)
+                              : load_appearance(arguments.material, read_environment(arguments.environment));
   const auto read = [](const fs::path& path) { return path.empty() ? Image() : read_data(path); };
   const ShadeInputs inputs{.normals = read(arguments.normals),
                            .tangents = read(arguments.tangents),
@@ -40,10 +44,10 @@ void run(const Arguments& arguments) {
 
 void add_shade(CLI::App& parent) {
   auto arguments = std::make_shared<Arguments>();
-  CLI::App* command =
-      add_command(parent, "shade", "Shade pictures of normals and tangents with a material, without drawing",
-                  "sateen shade --normals shirt.normal.exr --tangents shirt.tangent.exr --material silk.ktx2 "
-                  "-o shirt.exr");
+  CLI::App* command = add_command(
+      parent, "shade", "Shade pictures of normals and tangents with a material, without drawing",
+      "sateen shade --normals jacket.normal.exr --tangents jacket.tangent.exr --material silk.ktx2 "
+      "-o jacket.exr");
   command
       ->add_option("--normals", arguments->normals,
                    "View-space normals as stored, row 0 on top; zero is empty")
@@ -60,6 +64,8 @@ void add_shade(CLI::App& parent) {
                       "Curvature in the first channel, positive where convex");
   command->add_option("--material,-m", arguments->material, "AMC, MatCap picture or .json material")
       ->required();
+  command->add_option("--env", arguments->environment,
+                      "Latitude-longitude picture that lights a \"layered\" material");
   command->add_option("-o,--output", arguments->output, "The picture, RGBA")->required();
   command->callback([arguments] { run(*arguments); });
 }

@@ -51,7 +51,7 @@ class Maps {
     const double along = ((over ? x : y) % 16 + 0.5) / 8 - 1;
     Vec3 n(0.4 * along + noise, 0.7 * across - noise, 1);
     if (!over) std::swap(n.x(), n.y());
-    return {n.normalized(), ggx_matrix({0.35 + noise, 0.12, over ? kPi / 2 + noise : noise})};
+    return {n.normalized(), roughness_matrix({0.35 + noise, 0.12, over ? kPi / 2 + noise : noise})};
   }
 
   LobeMapFiles files() const {

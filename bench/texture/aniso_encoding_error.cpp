@@ -76,7 +76,7 @@ Vec3 quantised(const Vec3& c) {
 enum class Scene { smooth, warp_and_weft, random };
 
 /// Relative radiance error of each encoding, and last of interpolating the matrix without quantisation.
-std::vector<double> interpolation_errors(const std::vector<Encoding>& all, const AnisotropicAlpha& lobe,
+std::vector<double> interpolation_errors(const std::vector<Encoding>& all, const AnisotropicRoughness& lobe,
                                          Scene scene) {
   std::mt19937 generator(1);
   const auto uniform = [&] { return std::uniform_real_distribution<double>(0, 1)(generator); };
@@ -86,11 +86,11 @@ std::vector<double> interpolation_errors(const std::vector<Encoding>& all, const
     const double base = uniform() * kPi;
     std::array<LobeTexel, 4> corner;
     for (int j = 0; j < 4; ++j) {
-      AnisotropicAlpha a = lobe;
-      a.angle = scene == Scene::smooth   ? base + (uniform() - 0.5) * 0.5
+      AnisotropicRoughness a = lobe;
+      a.azimuth = scene == Scene::smooth   ? base + (uniform() - 0.5) * 0.5
                 : scene == Scene::random ? uniform() * kPi
                                          : base + (j % 2) * kPi / 2;
-      corner[static_cast<std::size_t>(j)].s = ggx_matrix(a);
+      corner[static_cast<std::size_t>(j)].s = roughness_matrix(a);
     }
     const double u = uniform();
     const double v = uniform();
@@ -124,14 +124,14 @@ std::vector<double> interpolation_errors(const std::vector<Encoding>& all, const
 }
 
 /// Mean relative error of both alphas of a map whose direction turns, after 8 bits, or after BC7.
-double alpha_error(const Encoding& encoding, const AnisotropicAlpha& lobe, bool blocks) {
+double alpha_error(const Encoding& encoding, const AnisotropicRoughness& lobe, bool blocks) {
   constexpr int kSize = 128;
   std::vector<std::uint8_t> rgba;
-  std::vector<AnisotropicAlpha> truth;
+  std::vector<AnisotropicRoughness> truth;
   for (int y = 0; y < kSize; ++y) {
     for (int x = 0; x < kSize; ++x) {
-      truth.push_back({lobe.t, lobe.b, 0.03 * x + 0.5 * std::sin(0.05 * y)});
-      const Vec3 c = quantised(encoding.encode(ggx_matrix(truth.back())));
+      truth.push_back({lobe.alpha_t, lobe.alpha_b, 0.03 * x + 0.5 * std::sin(0.05 * y)});
+      const Vec3 c = quantised(encoding.encode(roughness_matrix(truth.back())));
       for (int k = 0; k < 3; ++k) rgba.push_back(static_cast<std::uint8_t>(std::lround(c[k] * 255)));
       rgba.push_back(255);
     }
@@ -144,9 +144,9 @@ double alpha_error(const Encoding& encoding, const AnisotropicAlpha& lobe, bool 
   }
   double error = 0;
   for (std::size_t i = 0; i < truth.size(); ++i) {
-    const AnisotropicAlpha back =
-        ggx_alphas(encoding.decode(Vec3(rgba[i * 4], rgba[i * 4 + 1], rgba[i * 4 + 2]) / 255));
-    error += (std::abs(back.t / lobe.t - 1) + std::abs(back.b / lobe.b - 1)) / 2;
+    const AnisotropicRoughness back =
+        roughness_from_matrix(encoding.decode(Vec3(rgba[i * 4], rgba[i * 4 + 1], rgba[i * 4 + 2]) / 255));
+    error += (std::abs(back.alpha_t / lobe.alpha_t - 1) + std::abs(back.alpha_b / lobe.alpha_b - 1)) / 2;
   }
   return error / static_cast<double>(truth.size());
 }
@@ -155,7 +155,7 @@ double alpha_error(const Encoding& encoding, const AnisotropicAlpha& lobe, bool 
 
 int main() {
   const std::vector<Encoding> all = encodings();
-  const std::array<AnisotropicAlpha, 4> lobes{
+  const std::array<AnisotropicRoughness, 4> lobes{
       {{0.3, 0.1, 0}, {0.29, 0.04, 0}, {0.87, 0.1, 0}, {0.87, 0.04, 0}}};
   fmt::print("{:44}", "");
   for (const Encoding& e : all) fmt::print("{:>13}", e.name);
@@ -168,15 +168,15 @@ int main() {
   for (const auto& [scene, name] :
        {std::pair{Scene::smooth, "angles within 14 degrees"},
         std::pair{Scene::warp_and_weft, "warp beside weft"}, std::pair{Scene::random, "random angles"}}) {
-    for (const AnisotropicAlpha& lobe : lobes) {
-      row(fmt::format("{}, {} and {}", name, lobe.t, lobe.b), interpolation_errors(all, lobe, scene));
+    for (const AnisotropicRoughness& lobe : lobes) {
+      row(fmt::format("{}, {} and {}", name, lobe.alpha_t, lobe.alpha_b), interpolation_errors(all, lobe, scene));
     }
   }
   for (const bool blocks : {false, true}) {
-    for (const AnisotropicAlpha& lobe : lobes) {
+    for (const AnisotropicRoughness& lobe : lobes) {
       std::vector<double> errors;
       for (const Encoding& e : all) errors.push_back(alpha_error(e, lobe, blocks));
-      row(fmt::format("alphas {} and {} after {}", lobe.t, lobe.b, blocks ? "BC7" : "8 bits"), errors);
+      row(fmt::format("alphas {} and {} after {}", lobe.alpha_t, lobe.alpha_b, blocks ? "BC7" : "8 bits"), errors);
     }
   }
 }

@@ -87,7 +87,7 @@ LobeTexel filtered(const std::vector<LobeTexel>& texels, const FilterOptions& op
   return unpack_moments(mean, options);
 }
 
-Errors measure(const Image& map, const AnisotropicAlpha& lobe) {
+Errors measure(const Image& map, const AnisotropicRoughness& lobe) {
   static const std::vector<Directions> kDirections = directions();
   Errors mean{};
   for (int mip = 1; mip <= kMips; ++mip) {
@@ -98,7 +98,7 @@ Errors measure(const Image& map, const AnisotropicAlpha& lobe) {
     for (int block = 0; block < kBlocks; ++block) {
       const int x = static_cast<int>(generator() % static_cast<unsigned>(map.width / size)) * size;
       const int y = static_cast<int>(generator() % static_cast<unsigned>(map.height / size)) * size;
-      const auto texels = texels_of(map, x, y, size, ggx_matrix(lobe));
+      const auto texels = texels_of(map, x, y, size, roughness_matrix(lobe));
       std::array<LobeTexel, kMethods.size()> results;
       for (std::size_t m = 0; m < kMethods.size(); ++m) results[m] = filtered(texels, kMethods[m].options);
       for (const auto& [light, view] : kDirections) {

@@ -39,7 +39,7 @@ double shade(const LobeTexel& texel, const Point& point) {
 }
 
 void draw(const Image& map, const std::filesystem::path& output) {
-  const Mat2 s = ggx_matrix({0.35, 0.12, 0});
+  const Mat2 s = roughness_matrix({0.35, 0.12, 0});
   const int blocks_u = map.width / kBlock;
   const int blocks_v = map.height / kBlock;
   if (blocks_u < 1 || blocks_v < 1) throw Error("the normal map is smaller than 16 x 16");

@@ -9,7 +9,11 @@
 #include <memory>
 #include <numeric>
 
+#if __has_include(<embree4/rtcore.h>)
+#include <embree4/rtcore.h>
+#else
 #include <embree3/rtcore.h>
+#endif
 
 #include "sateen/core/direction.h"
 #include "sateen/core/error.h"
@@ -73,8 +77,6 @@ Vec3 cosine_weighted(const Vec2& uniform) {
 }
 
 bool blocked(RTCScene scene, const Vec3f& origin, const Vec3f& direction, float reach) {
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
   RTCRay ray{};
   ray.org_x = origin.x();
   ray.org_y = origin.y();
@@ -84,7 +86,13 @@ bool blocked(RTCScene scene, const Vec3f& origin, const Vec3f& direction, float 
   ray.dir_z = direction.z();
   ray.tfar = reach;
   ray.mask = ~0u;
+#if RTC_VERSION_MAJOR >= 4
+  rtcOccluded1(scene, &ray);
+#else
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
   rtcOccluded1(scene, &context, &ray);
+#endif
   return ray.tfar < 0;
 }
 

@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "sateen/io/mesh_material.h"
 
-#include <cctype>
 #include <charconv>
-#include <optional>
 
 #include <assimp/material.h>
 #include <assimp/scene.h>
 #include <fmt/format.h>
 
 #include "sateen/core/error.h"
+#include "sateen/io/file.h"
 #include "sateen/io/image.h"
 #include "sateen/io/image_memory.h"
 
@@ -71,6 +70,8 @@ MeshMaterial read_material(const aiScene& scene, const aiMaterial& material, con
   MeshMaterial result;
   aiString name;
   if (material.Get(AI_MATKEY_NAME, name) == aiReturn_SUCCESS) result.name = name.C_Str();
+  const std::string extension = extension_of(path);
+  if (extension != ".glb" && extension != ".gltf") return result;
   result.normal_map = read_texture(scene, material, aiTextureType_NORMALS, path, result.normal_uv_scale,
                                    result.normal_uv_offset);
   // assimp files glTF's occlusion texture under light maps.

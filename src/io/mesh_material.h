@@ -11,8 +11,9 @@ struct aiScene;
 
 namespace sateen {
 
-/// What Sateen carries over of an imported material; pictures are looked for in the scene and beside `path`.
-/// Throws Error when a picture is missing or corrupt.
+/// What Sateen carries over of an imported material: its name and, of glTF, normal and occlusion maps, looked
+/// for in the scene and beside `path`. Maps on a second UV set are left out, and a rotated texture transform
+/// loses its rotation. Throws Error when a picture is missing or corrupt.
 MeshMaterial read_material(const aiScene& scene, const aiMaterial& material,
                            const std::filesystem::path& path);
 

@@ -8,9 +8,8 @@
 #include <assimp/scene.h>
 #include <fmt/format.h>
 
-#include "sateen/core/direction.h"
 #include "sateen/core/error.h"
-#include "sateen/core/first_equal.h"
+#include "sateen/io/triangulate.h"
 
 namespace sateen {
 namespace {
@@ -47,7 +46,7 @@ std::vector<Part> parts_of(const aiScene& scene) {
 
 bool has_triangles(const Part& part) {
   return std::any_of(part.mesh->mFaces, part.mesh->mFaces + part.mesh->mNumFaces,
-                     [](const aiFace& face) { return face.mNumIndices == 3; });
+                     [](const aiFace& face) { return face.mNumIndices >= 3; });
 }
 
 Eigen::Affine3d affine(const aiMatrix4x4& m) {
@@ -92,127 +91,25 @@ void append_vertices(Mesh& mesh, const aiMesh& part, const Eigen::Affine3d& tran
   }
 }
 
-// Equal corners, or no area beyond rounding.
-bool degenerate(const Mesh& mesh, const std::array<std::uint32_t, 3>& t) {
-  const Vec3 a = (mesh.positions[t[1]] - mesh.positions[t[0]]).cast<double>();
-  const Vec3 b = (mesh.positions[t[2]] - mesh.positions[t[0]]).cast<double>();
-  return !(a.cross(b).norm() > 1e-14 * std::max(a.squaredNorm(), b.squaredNorm()));
-}
-
 void append_triangles(Mesh& mesh, const aiMesh& part, std::uint32_t first, bool flip,
                       std::uint32_t material) {
+  std::vector<Vec3f> corners;
+  const auto append = [&](const aiFace& face, std::array<std::uint32_t, 3> places) {
+    if (flip) std::swap(places[1], places[2]);
+    mesh.triangles.push_back({first + face.mIndices[places[0]], first + face.mIndices[places[1]],
+                              first + face.mIndices[places[2]]});
+    mesh.material_ids.push_back(material);
+  };
   for (unsigned int f = 0; f < part.mNumFaces; ++f) {
     const aiFace& face = part.mFaces[f];
-    if (face.mNumIndices != 3) continue;
-    std::array<std::uint32_t, 3> triangle = {first + face.mIndices[0], first + face.mIndices[1],
-                                             first + face.mIndices[2]};
-    if (flip) std::swap(triangle[1], triangle[2]);
-    if (degenerate(mesh, triangle)) continue;
-    mesh.triangles.push_back(triangle);
-    mesh.material_ids.push_back(material);
-  }
-}
-
-// Replaces every vertex by representative[vertex] and drops the vertices that no triangle uses.
-void compact(Mesh& mesh, const std::vector<std::uint32_t>& representative) {
-  std::vector<std::uint32_t> place(mesh.positions.size(), kNone);
-  for (auto& triangle : mesh.triangles) {
-    for (std::uint32_t& vertex : triangle) {
-      if (!representative.empty()) vertex = representative[vertex];
-      place[vertex] = 0;
+    if (face.mNumIndices == 3) {
+      append(face, {0, 1, 2});
+    } else if (face.mNumIndices > 3) {
+      corners.clear();
+      for (unsigned int c = 0; c < face.mNumIndices; ++c)
+        corners.push_back(vector(part.mVertices[face.mIndices[c]]));
+      for (const auto& places : triangulate(corners)) append(face, places);
     }
-  }
-  std::uint32_t kept = 0;
-  for (std::uint32_t i = 0; i < place.size(); ++i) {
-    if (place[i] == kNone) continue;
-    const auto move = [&](auto& values) {
-      if (!values.empty()) values[kept] = values[i];
-    };
-    move(mesh.positions);
-    move(mesh.normals);
-    move(mesh.tangents);
-    move(mesh.uvs);
-    place[i] = kept++;
-  }
-  if (kept == place.size()) return;
-  const auto cut = [&](auto& values) {
-    if (values.empty()) return;
-    values.resize(kept);
-    values.shrink_to_fit();
-  };
-  cut(mesh.positions);
-  cut(mesh.normals);
-  cut(mesh.tangents);
-  cut(mesh.uvs);
-  for (auto& triangle : mesh.triangles) {
-    for (std::uint32_t& vertex : triangle) vertex = place[vertex];
-  }
-}
-
-std::vector<std::uint32_t> equal_vertices(const Mesh& mesh) {
-  const auto hash = [&](std::uint32_t i) {
-    std::uint64_t h = 0;
-    for (const float x : mesh.positions[i]) h = mix_hash(h, hash_bits(x));
-    if (!mesh.normals.empty()) {
-      for (const float x : mesh.normals[i]) h = mix_hash(h, hash_bits(x));
-    }
-    if (!mesh.uvs.empty()) {
-      for (const float x : mesh.uvs[i]) h = mix_hash(h, hash_bits(x));
-    }
-    return h;
-  };
-  const auto equal = [&](std::uint32_t i, std::uint32_t j) {
-    return mesh.positions[i] == mesh.positions[j] &&
-           (mesh.normals.empty() || mesh.normals[i] == mesh.normals[j]) &&
-           (mesh.uvs.empty() || mesh.uvs[i] == mesh.uvs[j]);
-  };
-  return first_equal(static_cast<std::uint32_t>(mesh.positions.size()), hash, equal);
-}
-
-// Gives the vertices whose normal the file left zero or not finite the normal of their triangles.
-void mend_normals(Mesh& mesh) {
-  const auto bad = [](const Vec3f& n) { return !(std::abs(n.norm() - 1) < 1e-3f); };
-  if (std::ranges::none_of(mesh.normals, bad)) return;
-  std::vector<Vec3f> sums(mesh.normals.size(), Vec3f::Zero());
-  for (const auto& t : mesh.triangles) {
-    const Vec3f a = mesh.positions[t[1]] - mesh.positions[t[0]];
-    const Vec3f cross = a.cross(mesh.positions[t[2]] - mesh.positions[t[0]]);
-    for (const std::uint32_t vertex : t) sums[vertex] += cross;
-  }
-  for (std::size_t i = 0; i < sums.size(); ++i) {
-    if (bad(mesh.normals[i])) mesh.normals[i] = sums[i].norm() > 0 ? sums[i].normalized() : Vec3f::UnitZ();
-  }
-}
-
-// Makes tangents unit and orthogonal to the normals; those the file left without a direction take their
-// neighbours'.
-void mend_tangents(Mesh& mesh) {
-  const auto set = [&](std::size_t vertex, const Vec3& direction) {
-    const Vec3 n = mesh.normals[vertex].cast<double>();
-    const Vec3 unit = direction.normalized();
-    const Vec3 across = unit - n.dot(unit) * n;
-    if (!(across.norm() > 1e-3)) return false;
-    mesh.tangents[vertex].head<3>() = across.normalized().cast<float>();
-    return true;
-  };
-  std::vector<char> good(mesh.tangents.size());
-  for (std::size_t i = 0; i < good.size(); ++i)
-    good[i] = set(i, mesh.tangents[i].head<3>().cast<double>()) ? 1 : 0;
-  if (std::ranges::all_of(good, [](char g) { return g != 0; })) return;
-  std::vector<Vec3> sums(good.size(), Vec3::Zero());
-  for (const auto& t : mesh.triangles) {
-    for (std::size_t c = 0; c < 3; ++c) {
-      for (const std::uint32_t other : {t[(c + 1) % 3], t[(c + 2) % 3]}) {
-        if (!good[t[c]] && good[other]) sums[t[c]] += mesh.tangents[other].head<3>().cast<double>();
-      }
-    }
-  }
-  for (std::size_t i = 0; i < good.size(); ++i) {
-    if (good[i] || set(i, sums[i])) continue;
-    Vec3 tangent;
-    Vec3 bitangent;
-    frame_around(mesh.normals[i].cast<double>(), tangent, bitangent);
-    mesh.tangents[i].head<3>() = tangent.cast<float>();
   }
 }
 
@@ -241,7 +138,7 @@ void check_scene(const aiScene& scene, const std::filesystem::path& path) {
   }
 }
 
-MergedMesh merge_scene(const aiScene& scene, bool join) {
+MergedMesh merge_scene(const aiScene& scene) {
   MergedMesh result;
   Mesh& mesh = result.mesh;
   std::vector<Part> parts = parts_of(scene);
@@ -273,9 +170,6 @@ MergedMesh merge_scene(const aiScene& scene, bool join) {
     append_vertices(mesh, *part.mesh, transform, attributes);
     append_triangles(mesh, *part.mesh, first, transform.linear().determinant() < 0, material);
   }
-  compact(mesh, join ? equal_vertices(mesh) : std::vector<std::uint32_t>());
-  mend_normals(mesh);
-  mend_tangents(mesh);
   return result;
 }
 

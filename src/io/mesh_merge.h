@@ -18,9 +18,9 @@ struct MergedMesh {
 /// Throws Error naming `path` and the mesh when an index points outside it or a number is not finite.
 void check_scene(const aiScene& scene, const std::filesystem::path& path);
 
-/// All triangles of a checked scene whose faces are triangles, lines or points, in one mesh in object space.
-/// Attributes are kept when every part has them; UVs when any part has them (the others get 0). With `join`,
-/// equal vertices become one.
-MergedMesh merge_scene(const aiScene& scene, bool join);
+/// The faces of a checked scene as triangles in one mesh, node transforms applied; lines and points are left
+/// out. Normals and tangents are kept when every part has them; UVs when any part has them (the others get
+/// 0).
+MergedMesh merge_scene(const aiScene& scene);
 
 }  // namespace sateen

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "sateen/core/error.h"
 
@@ -45,13 +46,28 @@ Box bounds(const Mesh& mesh, const Mat3& rotation) {
   return box;
 }
 
-/// How far and how wide the camera must be to see all poses.
-struct Extent {
-  double half_x = 0;    ///< largest |x|
-  double half_y = 0;    ///< largest |y|
-  double distance = 0;  ///< of the eye from the pivot for every point to be in the pyramid of view
-  double front = 0;     ///< largest z relative to the pivot
-  double back = 0;      ///< smallest
+/// Along one picture axis: the camera's place on it, and how far away (perspective) or wide (orthographic) it
+/// must see. The camera at `centre` and distance d sees x if |x - centre| <= slope (d - z): the bounds of d
+/// from both sides are equal at the best centre. For parallel rays the widest extent takes the place of the
+/// distance.
+class AxisFit {
+ public:
+  AxisFit(bool perspective, double slope) : perspective_(perspective), slope_(slope) {}
+
+  void add(double x, double z) {
+    const double depth = perspective_ ? z * slope_ : 0;
+    up_ = std::max(up_, depth + x);
+    down_ = std::max(down_, depth - x);
+  }
+  double centre() const { return (up_ - down_) / 2; }
+  double half_extent() const { return (up_ + down_) / 2; }
+  double distance() const { return half_extent() / slope_; }
+
+ private:
+  bool perspective_;
+  double slope_;
+  double up_ = -std::numeric_limits<double>::infinity();
+  double down_ = -std::numeric_limits<double>::infinity();
 };
 
 }  // namespace
@@ -71,38 +87,37 @@ std::vector<View> frame_object(const Mesh& mesh, const Camera& camera, std::span
     return views;
   }
 
+  const bool perspective = camera.kind == Camera::Kind::perspective;
   const double free = 1 + 2 * camera.margin;
   const double tan_y = std::tan(camera.field_of_view / 2);
   const double tan_x = tan_y * aspect;
-  std::vector<Vec3> pivots;
-  Extent extent;
+  AxisFit horizontal(perspective, tan_x / free);
+  AxisFit vertical(perspective, tan_y / free);
+  const Vec3 middle = bounds(mesh, Mat3::Identity()).center();
+  double back = 0;
+  double front = 0;
   for (const Mat3& rotation : rotations) {
-    const Vec3 pivot = rotations.size() == 1 ? bounds(mesh, rotation).center()
-                                             : Vec3(rotation * bounds(mesh, Mat3::Identity()).center());
-    pivots.push_back(pivot);
     for (const Vec3f& position : mesh.positions) {
-      const Vec3 p = rotation * position.cast<double>() - pivot;
-      const double x = std::abs(p.x()) * free;
-      const double y = std::abs(p.y()) * free;
-      extent.half_x = std::max(extent.half_x, x);
-      extent.half_y = std::max(extent.half_y, y);
-      extent.distance = std::max(extent.distance, p.z() + std::max(x / tan_x, y / tan_y));
-      extent.front = std::max(extent.front, p.z());
-      extent.back = std::min(extent.back, p.z());
+      const Vec3 p = rotation * (position.cast<double>() - middle);
+      horizontal.add(p.x(), p.z());
+      vertical.add(p.y(), p.z());
+      back = std::min(back, p.z());
+      front = std::max(front, p.z());
     }
   }
-  const double size = std::max({extent.half_x, extent.half_y, extent.front - extent.back});
-  const bool perspective = camera.kind == Camera::Kind::perspective;
+  const double half_y = free * std::max(vertical.half_extent(), horizontal.half_extent() / aspect);
+  const double size = std::max(half_y, front - back);
   // A spike towards the eye must not reach it.
-  const double distance = perspective ? std::max(extent.distance, extent.front + size / 4) : 0;
-  const double front = extent.front + size * 0.1 - distance;
-  const double back = extent.back - size * 0.1 - distance;
-  const double half_y = std::max(extent.half_y, extent.half_x / aspect);
-  const Mat4 clip_from_view = perspective ? perspective_matrix(tan_x, tan_y, -front, -back)
-                                          : orthographic_matrix(half_y * aspect, half_y, back, front);
+  const double distance =
+      perspective ? std::max({horizontal.distance(), vertical.distance(), front + size / 4}) : 0;
+  const double near = distance - front - size * 0.1;
+  const double far = distance - back + size * 0.1;
+  const Mat4 clip_from_view = perspective ? perspective_matrix(tan_x, tan_y, near, far)
+                                          : orthographic_matrix(half_y * aspect, half_y, -far, -near);
+  const Vec3 eye(horizontal.centre(), vertical.centre(), distance);
   std::vector<View> views;
-  for (std::size_t i = 0; i < rotations.size(); ++i) {
-    views.push_back({rigid(rotations[i], Vec3(0, 0, -distance) - pivots[i]), clip_from_view, perspective});
+  for (const Mat3& rotation : rotations) {
+    views.push_back({rigid(rotation, -eye - rotation * middle), clip_from_view, perspective});
   }
   return views;
 }

@@ -28,10 +28,10 @@ struct View {
   bool perspective = false;                  ///< whether view rays meet in the view space's origin
 };
 
-/// One view per rotation of the object. The camera is the same for all of them and sees the whole object in
-/// each; a single pose is centred by its outline, several turn about the middle of the object's bounding box.
-/// Light belongs to the camera: it is the object that turns. `aspect` is width / height. Throws Error when
-/// the mesh has no vertices or no extent.
+/// One view per rotation of the object, about the middle of its bounding box. The camera is the same for all
+/// of them, as near as it can be while it sees the whole object in each, and centred. Light belongs to the
+/// camera: it is the object that turns. `aspect` is width / height. Throws Error when the mesh has no
+/// vertices or no extent.
 std::vector<View> frame_object(const Mesh& mesh, const Camera& camera, std::span<const Mat3> rotations,
                                double aspect);
 

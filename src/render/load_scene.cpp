@@ -13,6 +13,7 @@
 #include "sateen/geometry/tangents.h"
 #include "sateen/io/image.h"
 #include "sateen/io/mesh.h"
+#include "sateen/light/environment.h"
 #include "sateen/render/registry.h"
 
 namespace sateen {
@@ -66,10 +67,15 @@ std::vector<Material> load_materials(const Model& model, const fs::path& file, c
   const SurfaceMap normal_map = read_map(options.normal_map, 3, "normal map");
   const SurfaceMap direction_map = read_map(options.direction_map, 2, "direction map");
   const SurfaceMap occlusion_map = read_map(options.occlusion_map, 1, "occlusion map");
+  const Image surroundings =
+      options.environment.empty()
+          ? Image()
+          : turned_environment(read_environment(options.environment), options.environment_turn);
   std::vector<Material> materials;
   for (const fs::path& path : appearance_paths(model.mesh, file, options)) {
     auto& appearance = loaded[path];
-    if (!appearance) appearance = load_appearance(path);
+    if (!appearance)
+      appearance = surroundings.empty() ? load_appearance(path) : load_appearance(path, surroundings);
     Material material{.appearance = appearance};
     material.normal_map = normal_map;
     material.normal_scale = options.normal_scale;

@@ -39,7 +39,9 @@ struct SceneOptions {
   std::filesystem::path normal_map;     ///< in place of the file's own
   std::filesystem::path direction_map;
   float normal_scale = 1;
-  bool file_normal_maps = true;  ///< use those of the file's materials
+  std::filesystem::path environment;  ///< latitude-longitude picture that lights the materials; empty: none
+  double environment_turn = 0;        ///< radians about the vertical (turned_environment)
+  bool file_normal_maps = true;       ///< use those of the file's materials
   RenderSwitches switches;
   Progress progress;
 };

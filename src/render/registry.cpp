@@ -10,10 +10,12 @@
 
 #include "sateen/amc/amc_file.h"
 #include "sateen/amc/appearance.h"
+#include "sateen/brdf/layered.h"
 #include "sateen/core/error.h"
 #include "sateen/io/file.h"
 #include "sateen/io/image.h"
 #include "sateen/io/ktx2.h"
+#include "sateen/matcap/decomposed_appearance.h"
 #include "sateen/matcap/matcap.h"
 #include "sateen/render/constant.h"
 
@@ -32,6 +34,7 @@ std::unique_ptr<Appearance> load_amc(const fs::path& path) {
 const Loaders& ktx2_kinds() {
   static const Loaders loaders{
       {"amc", load_amc},
+      {"matcap-decomposition", DecomposedAppearance::read},
   };
   return loaders;
 }
@@ -40,6 +43,8 @@ const Loaders& ktx2_kinds() {
 const Loaders& models() {
   static const Loaders loaders{
       {"constant", Constant::read},
+      {"layered", LayeredAppearance::read},
+      {"matcap-decomposition", DecomposedAppearance::read_material},
   };
   return loaders;
 }
@@ -83,6 +88,16 @@ std::unique_ptr<Appearance> load_appearance(const fs::path& path) {
   throw Error(fmt::format(
       "{}: is no material; a picture (MatCap), .ktx2 (AMC), a folder of AMC slices or .json is needed",
       path.string()));
+}
+
+std::unique_ptr<Appearance> load_appearance(const fs::path& path, const Image& environment) {
+  auto appearance = load_appearance(path);
+  if (!appearance->set_environment(environment)) {
+    throw Error(
+        fmt::format("{}: its light is baked in; only materials of \"model\": \"layered\" take an environment",
+                    path.string()));
+  }
+  return appearance;
 }
 
 }  // namespace sateen

@@ -13,4 +13,7 @@ namespace sateen {
 /// of no known kind.
 std::unique_ptr<Appearance> load_appearance(const std::filesystem::path& path);
 
+/// The same, lit by a latitude-longitude picture. Throws Error too when the appearance's light is baked in.
+std::unique_ptr<Appearance> load_appearance(const std::filesystem::path& path, const Image& environment);
+
 }  // namespace sateen

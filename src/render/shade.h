@@ -9,13 +9,14 @@ namespace sateen {
 
 /// Pictures of a surface, all of one size, row 0 on top; what is not there is empty.
 struct ShadeInputs {
-  Image normals;    ///< x, y, z in view space, any length; a zero vector (or less than 3 channels' worth) is
-                    ///< empty
-  Image tangents;   ///< x, y, z in view space, any length; zero is empty too
-  Image positions;  ///< x, y, z in view space, the eye at the origin; without them the view is +z everywhere
-  Image occlusion;  ///< first channel
-  Image uvs;        ///< u, v
-  Image curvature;  ///< first channel, 1 / view-space unit
+  Image normals = {};  ///< x, y, z in view space, any length; a zero vector (or less than 3 channels' worth)
+                       ///< is empty
+  Image tangents = {};  ///< x, y, z in view space, any length; zero is empty too
+  Image positions =
+      {};  ///< x, y, z in view space, the eye at the origin; without them the view is +z everywhere
+  Image occlusion = {};  ///< first channel
+  Image uvs = {};        ///< u, v
+  Image curvature = {};  ///< first channel, 1 / view-space unit
 };
 
 /// Shades every pixel with the appearance's C++ evaluator, no rasteriser involved, in parallel. RGBA, linear;

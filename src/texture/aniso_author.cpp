@@ -211,7 +211,7 @@ void author_anisotropy(const AuthorInputs& in, const fs::path& output, Anisotrop
   write_maps(
       rows, {output}, bits,
       [&](std::size_t i, std::vector<std::array<float, 3>>& out) {
-        const Vec3 c = encode_anisotropy(ggx_matrix(lobe(i)), encoding);
+        const Vec3 c = encode_anisotropy(roughness_matrix(lobe(i)), encoding);
         out[0] = triple(c[0], c[1], c[2]);
       },
       progress);
@@ -232,10 +232,10 @@ std::vector<fs::path> decode_anisotropy_map(const fs::path& map, AnisotropyEncod
       rows, outputs, bits,
       [&](std::size_t i, std::vector<std::array<float, 3>>& out) {
         const Vec3 c(rows.value(input, i), rows.value(input, i, 1), rows.value(input, i, 2));
-        const AnisotropicAlpha lobe = ggx_alphas(decode_anisotropy(c, encoding));
+        const AnisotropicRoughness lobe = roughness_from_matrix(decode_anisotropy(c, encoding));
         switch (style) {
           case DecodeStyle::alphas:
-            out[0] = triple(lobe.t, lobe.b, lobe.angle / kPi);
+            out[0] = triple(lobe.alpha_t, lobe.alpha_b, lobe.azimuth / kPi);
             break;
           case DecodeStyle::uv: {
             const UvRoughness s = uv_roughness_of(lobe);

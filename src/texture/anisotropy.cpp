@@ -8,7 +8,7 @@
 namespace sateen {
 namespace {
 
-constexpr double kMinEigenvalue = kMinAlpha * kMinAlpha;
+constexpr double kMinEigenvalue = kMinimumAlpha * kMinimumAlpha;
 
 struct Eigen2 {
   double large;
@@ -33,22 +33,6 @@ Mat2 symmetric(double large, double small, double angle) {
 }
 
 }  // namespace
-
-Mat2 ggx_matrix(const AnisotropicAlpha& alpha) {
-  const double t = std::clamp(alpha.t, kMinAlpha, 1.0);
-  const double b = std::clamp(alpha.b, kMinAlpha, 1.0);
-  return symmetric(t * t, b * b, alpha.angle);
-}
-
-AnisotropicAlpha ggx_alphas(const Mat2& s) {
-  const Eigen2 e = eigenvalues(s);
-  AnisotropicAlpha alpha;
-  alpha.t = std::sqrt(std::clamp(e.large, kMinEigenvalue, 1.0));
-  alpha.b = std::sqrt(std::clamp(e.small, kMinEigenvalue, 1.0));
-  alpha.angle = e.angle < 0 ? e.angle + kPi : e.angle;
-  if (alpha.angle >= kPi || alpha.t <= alpha.b) alpha.angle = 0;
-  return alpha;
-}
 
 Mat2 guarded(const Mat2& s) {
   // Most matrices are well inside; the bounds are checked without a square root.
@@ -100,7 +84,7 @@ Mat2 decode_anisotropy(const Vec3& channels, AnisotropyEncoding encoding) {
   return s;
 }
 
-Mat3 sggx_matrix(const Vec3& normal, const Mat2& s) {
+Mat3 sroughness_matrix(const Vec3& normal, const Mat2& s) {
   Mat3 inner = Mat3::Zero();
   inner.topLeftCorner<2, 2>() = s;
   inner(2, 2) = 1;

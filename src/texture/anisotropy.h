@@ -5,6 +5,7 @@
 #include <cmath>
 #include <string>
 
+#include "sateen/brdf/ggx.h"
 #include "sateen/core/vector.h"
 
 namespace sateen {
@@ -16,25 +17,8 @@ namespace sateen {
 // angle + pi are the same lobe. Average the matrices, never angles. With the normal added it is the 3 x 3
 // matrix of the SGGX distribution (Heitz et al. 2015): S = M_n [S2 0; 0 1] M_n^T.
 
-/// The smallest alpha that any map holds: a mirror is out of reach of a lobe in 8 bits.
-inline constexpr double kMinAlpha = 1e-3;
-
-/// A GGX lobe. alpha = roughness^2 for the roughness artists paint. The *long highlight* lies along the axis
-/// with the larger alpha (the rough direction); brushing and fibres usually run along the smaller one.
-struct AnisotropicAlpha {
-  double t = 0.5;    ///< alpha along the axis, [0, 1]
-  double b = 0.5;    ///< alpha across it, [0, 1]
-  double angle = 0;  ///< of the axis, radians counter-clockwise from U towards V
-};
-
-/// S2 of a lobe; alphas are clamped to [kMinAlpha, 1].
-Mat2 ggx_matrix(const AnisotropicAlpha& alpha);
-
-/// The lobe of any symmetric matrix: t >= b, angle in [0, pi). Matrices that interpolation or quantisation
-/// made non-positive are guarded: eigenvalues are clamped to [kMinAlpha^2, 1]. Isotropic ones have angle 0.
-AnisotropicAlpha ggx_alphas(const Mat2& s);
-
-/// The matrix with its eigenvalues clamped as in ggx_alphas.
+/// The matrix with its eigenvalues clamped to [kMinimumAlpha^2, 1], as roughness_from_matrix does: interpolation and
+/// quantisation can make any.
 Mat2 guarded(const Mat2& s);
 
 /// How the three channels of an anisotropy map hold S2. Both fit 8 bits and BC7.
@@ -51,7 +35,7 @@ std::string name_of(AnisotropyEncoding encoding);
 Vec3 encode_anisotropy(const Mat2& s, AnisotropyEncoding encoding);
 
 /// The matrix of three channels as they are: may be non-positive with `correlation` once channels were
-/// interpolated or compressed. Follow with ggx_alphas or guarded.
+/// interpolated or compressed. Follow with roughness_from_matrix or guarded.
 Mat2 decode_anisotropy(const Vec3& channels, AnisotropyEncoding encoding);
 
 /// The smallest rotation that takes +z to the unit normal n, n.z > -1: columns are the normal-mapped tangent,
@@ -66,7 +50,7 @@ inline Mat3 normal_frame(const Vec3& n) {
 }
 
 /// The SGGX matrix of a texel: eigenvalue 1 along the unit normal, S2 across it.
-Mat3 sggx_matrix(const Vec3& normal, const Mat2& s);
+Mat3 sroughness_matrix(const Vec3& normal, const Mat2& s);
 
 /// How the normal comes back out of a filtered SGGX matrix.
 enum class NormalSolver {

@@ -378,6 +378,36 @@ void try_rotation(const Planes& texels, bool alpha, int mode, int rotation, int 
   if (c.error + s.error < best.error) best = {mode, 0, rotation, index_mode, {c, s}, c.error + s.error};
 }
 
+/// Mode 5 holds any constant colour exactly: for each 8-bit value there are two 7-bit ends whose step at 21/64 is it.
+struct ConstantEnds {
+  std::array<std::array<int, 2>, 256> stored{};
+};
+
+const ConstantEnds& constant_ends() {
+  static const ConstantEnds kEnds = [] {
+    ConstantEnds ends;
+    for (int a = 0; a < 128; ++a) {
+      for (int b = 0; b < 128; ++b) {
+        const int value = (expand(a, 7) * (64 - 21) + expand(b, 7) * 21 + 32) >> 6;
+        ends.stored[static_cast<std::size_t>(value)] = {a, b};
+      }
+    }
+    return ends;
+  }();
+  return kEnds;
+}
+
+BlockCode constant_block(const std::array<std::uint8_t, 4>& texel) {
+  BlockCode code;
+  code.mode = 5;
+  for (std::size_t c = 0; c < 3; ++c) {
+    for (std::size_t e = 0; e < 2; ++e) code.part[0].ends.stored[e][c] = constant_ends().stored[texel[c]][e];
+  }
+  code.part[0].index.fill(1);
+  for (auto& end : code.part[1].ends.stored) end[3] = texel[3];
+  return code;
+}
+
 /// Residual of the best line through each subset of every partition, sorted by it: a cheap guess of what a
 /// two-subset mode can reach.
 struct PartitionGuess {
@@ -510,6 +540,10 @@ void write(BlockCode code, std::span<std::byte, 16> out) {
 }  // namespace
 
 void encode_bc7_block(const BlockRgba8& block, const Bc7Options& options, std::span<std::byte, 16> out) {
+  if (std::ranges::all_of(block, [&](const auto& texel) { return texel == block[0]; })) {
+    write(constant_block(block[0]), out);
+    return;
+  }
   Planes texels{};
   bool alpha = false;
   for (std::size_t i = 0; i < 16; ++i) {

@@ -31,7 +31,7 @@ struct LobeMapFiles {
   AnisotropyEncoding encoding = AnisotropyEncoding::root;
   std::filesystem::path
       roughness;              ///< instead of `anisotropy`: isotropic, first channel, alpha = roughness^2
-  AnisotropicAlpha constant;  ///< when neither map is given
+  AnisotropicRoughness constant;  ///< when neither map is given
 };
 
 /// Reads the maps row by row.

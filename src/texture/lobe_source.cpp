@@ -104,7 +104,7 @@ void LobeFileSource::read(std::span<LobeTexel> out) {
   };
   const std::size_t normal_channels = load(s.normals, s.normal_rows);
   const std::size_t lobe_channels = load(s.lobes, s.lobe_rows);
-  const Mat2 constant = ggx_matrix(s.files.constant);
+  const Mat2 constant = guarded(roughness_matrix(s.files.constant));
   const std::size_t width = static_cast<std::size_t>(s.width);
   parallel_for(static_cast<int>(out.size() / width), [&](int row) {
     std::size_t repaired = 0;
@@ -122,7 +122,7 @@ void LobeFileSource::read(std::span<LobeTexel> out) {
         texel.s = constant;
       } else if (s.isotropic) {
         const double r = std::clamp(static_cast<double>(s.lobe_rows[i * lobe_channels]), 0.0, 1.0);
-        texel.s = ggx_matrix({r * r, r * r, 0});
+        texel.s = guarded(roughness_matrix({r * r, r * r, 0}));
       } else {
         const float* c = s.lobe_rows.data() + i * lobe_channels;
         texel.s = guarded(decode_anisotropy({c[0], c[1], c[2]}, s.files.encoding));

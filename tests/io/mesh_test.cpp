@@ -132,6 +132,42 @@ TEST(MeshFile, PlyInAllEncodingsWithNormalsAndUvs) {
   }
 }
 
+TEST(MeshFile, ATruncatedTextPlyIsAnErrorAtAnyLength) {
+  const TemporaryFolder folder;
+  const std::string header =
+      "ply\r\nformat ascii 1.0\r\ncomment a quad and a strip of three\r\nelement vertex 5\r\nproperty double "
+      "x\r\n"
+      "property double y\r\nproperty double z\r\nproperty uchar red\r\nelement face 1\r\n"
+      "property list uchar uint vertex_index\r\nproperty list uchar float texcoord\r\nelement tristrips 1\r\n"
+      "property list int int vertex_indices\r\nend_header\r\n";
+  const std::string body =
+      "0 0 0 255\r\n1 0 0 0\r\n1 1 0 0\r\n0 1 0 0\r\n+2 0 0 7\r\n4 0 1 2 3 2 0.5 0.5\r\n6 1 4 2 -1 0 1";
+  write_text(folder / "a.ply", header + body);
+  const Mesh mesh = read_model(folder / "a.ply").mesh;
+  EXPECT_EQ(mesh.triangles.size(), 3u);
+  EXPECT_EQ(mesh.positions.size(), 5u);
+  EXPECT_TRUE(mesh.uvs.empty());
+  EXPECT_EQ(mesh.positions[4], Vec3f(2, 0, 0));
+  for (std::size_t length = 0; length + 1 < header.size() + body.size(); length += 3) {
+    write_text(folder / "cut.ply", (header + body).substr(0, length));
+    EXPECT_NE(error_of(folder / "cut.ply"), "no error") << length;
+  }
+}
+
+TEST(MeshFile, PlyFacesWindAsTheFileSaysStripsToo) {
+  const TemporaryFolder folder;
+  const std::string header =
+      "ply\nformat ascii 1.0\nelement vertex 5\nproperty float x\nproperty float y\nproperty float z\n"
+      "element tristrips 1\nproperty list int int vertex_indices\nend_header\n";
+  write_text(folder / "a.ply", header + "0 0 0\n1 0 0\n0 1 0\n1 1 0\n0 2 0\n5 0 1 2 3 4\n");
+  const Mesh mesh = read_model(folder / "a.ply").mesh;
+  ASSERT_EQ(mesh.triangles.size(), 3u);
+  for (const auto& t : mesh.triangles) {
+    const Vec3f a = mesh.positions[t[1]] - mesh.positions[t[0]];
+    EXPECT_GT(a.cross(mesh.positions[t[2]] - mesh.positions[t[0]]).z(), 0);
+  }
+}
+
 TEST(MeshFile, GltfTurnsUvsUpAndKeepsTangents) {
   const TemporaryFolder folder;
   for (const std::string name : {"a.glb", "a.gltf"}) {

@@ -19,19 +19,22 @@ TEST(Camera, ViewSpaceTakesCoordinatesAsTheyAre) {
   EXPECT_LT(std::abs(clip.z() / clip.w()), 1);
 }
 
-TEST(Camera, FillsThePictureInOneDirection) {
+TEST(Camera, FillsThePictureFromSideToSide) {
   for (const Camera::Kind kind : {Camera::Kind::perspective, Camera::Kind::orthographic}) {
     for (const double aspect : {0.4, 1.0, 2.5}) {
       const Mesh mesh = test::torus();
       const std::vector<Mat3> poses{rotation_xyz({0.4, -0.9, 2})};
       const View view = frame_object(mesh, {.kind = kind, .margin = 0}, poses, aspect)[0];
-      double largest = 0;
+      Eigen::AlignedBox2d outline;
       for (const Vec3f& p : mesh.positions) {
         const Vec4 clip = view.clip_from_view * view.view_from_object * p.cast<double>().homogeneous();
-        largest = std::max(largest, clip.head<2>().cwiseAbs().maxCoeff() / clip.w());
+        outline.extend(Vec2(clip.head<2>() / clip.w()));
         EXPECT_LT(std::abs(clip.z()), clip.w());
       }
-      EXPECT_NEAR(largest, 1, 1e-9);
+      const int axis = outline.sizes().x() > outline.sizes().y() ? 0 : 1;
+      EXPECT_NEAR(outline.min()[axis], -1, 1e-9);
+      EXPECT_NEAR(outline.max()[axis], 1, 1e-9);
+      EXPECT_NEAR(outline.center()[1 - axis], 0, 0.1);
     }
   }
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <cmath>
 
 #include "sateen/core/mesh.h"
@@ -102,6 +103,36 @@ inline Mesh plane(int cells = 1) {
   }
   join_grid(mesh, cells, cells);
   return mesh;
+}
+
+/// Every triangle in four, with attributes at the middles of edges interpolated, vectors made unit and
+/// tangents orthogonal again. Vertices are not shared between the results.
+inline Mesh subdivided(const Mesh& mesh) {
+  Mesh result;
+  result.material_names = mesh.material_names;
+  const auto add = [&](std::uint32_t a, std::uint32_t b) {
+    const Vec3f n = (mesh.normals[a] + mesh.normals[b]).normalized();
+    const Vec3f t = (mesh.tangents[a] + mesh.tangents[b]).head<3>();
+    result.positions.push_back((mesh.positions[a] + mesh.positions[b]) / 2);
+    result.normals.push_back(n);
+    result.tangents.emplace_back(0, 0, 0, mesh.tangents[a].w());
+    result.tangents.back().head<3>() = (t - n * n.dot(t)).normalized();
+    result.uvs.push_back((mesh.uvs[a] + mesh.uvs[b]) / 2);
+    return static_cast<std::uint32_t>(result.positions.size() - 1);
+  };
+  for (const auto& [a, b, c] : mesh.triangles) {
+    const std::uint32_t corner_a = add(a, a);
+    const std::uint32_t corner_b = add(b, b);
+    const std::uint32_t corner_c = add(c, c);
+    const std::uint32_t ab = add(a, b);
+    const std::uint32_t bc = add(b, c);
+    const std::uint32_t ca = add(c, a);
+    for (const auto& triangle : {std::array{corner_a, ab, ca}, std::array{ab, corner_b, bc},
+                                 std::array{ca, bc, corner_c}, std::array{ab, bc, ca}}) {
+      result.triangles.push_back(triangle);
+    }
+  }
+  return result;
 }
 
 }  // namespace sateen::test

@@ -72,7 +72,7 @@ TEST(AnisoShader, DecodesAsTheReferenceDoes) {
       for (int x = 0; x < kSize; ++x) {
         const Vec3 c =
             x < kSize / 2
-                ? encode_anisotropy(ggx_matrix({alpha(generator), alpha(generator), 7 * alpha(generator)}),
+                ? encode_anisotropy(roughness_matrix({alpha(generator), alpha(generator), 7 * alpha(generator)}),
                                     encoding)
                 : Vec3(value(generator), value(generator), value(generator));
         for (int k = 0; k < 3; ++k) input.at(x, y, k) = static_cast<float>(c[k]);
@@ -83,14 +83,14 @@ TEST(AnisoShader, DecodesAsTheReferenceDoes) {
     for (int y = 0; y < kSize; ++y) {
       for (int x = 0; x < kSize; ++x) {
         const Vec3 c(input.at(x, y, 0), input.at(x, y, 1), input.at(x, y, 2));
-        const AnisotropicAlpha expected = ggx_alphas(decode_anisotropy(c, encoding));
+        const AnisotropicRoughness expected = roughness_from_matrix(decode_anisotropy(c, encoding));
         const auto got = out.pixel(x, y);
-        ASSERT_NEAR(got[0], expected.t, 1e-4);
-        ASSERT_NEAR(got[1], expected.b, 2e-3);
+        ASSERT_NEAR(got[0], expected.alpha_t, 1e-4);
+        ASSERT_NEAR(got[1], expected.alpha_b, 2e-3);
         ASSERT_GE(got[1], 0.9e-3f);
         ASSERT_NEAR(std::hypot(got[2], got[3]), 1, 1e-4);
-        if (expected.t - expected.b > 0.02) {
-          const double along = got[2] * std::cos(expected.angle) + got[3] * std::sin(expected.angle);
+        if (expected.alpha_t - expected.alpha_b > 0.02) {
+          const double along = got[2] * std::cos(expected.azimuth) + got[3] * std::sin(expected.azimuth);
           ASSERT_NEAR(std::abs(along), 1, 1e-3);
         }
       }

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include "sateen/io/gltf_check.h"
+
 #include <algorithm>
 #include <array>
 #include <cstdint>
@@ -11,7 +13,6 @@
 
 #include "sateen/core/error.h"
 #include "sateen/io/file.h"
-#include "sateen/io/mesh_header.h"
 #include "sateen/io/mesh_material.h"
 
 namespace sateen {

@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: MIT
+#include "capture_options.h"
+
+#include <charconv>
+
+#include <fmt/format.h>
+
+#include "command.h"
+#include "sateen/capture/report.h"
+#include "sateen/core/error.h"
+#include "sateen/io/file.h"
+
+namespace sateen::cli {
+namespace {
+
+/// Numbers separated by blanks, commas or line ends; # starts a comment.
+std::vector<double> read_numbers(const std::filesystem::path& path) {
+  const std::string text = read_text(path);
+  std::vector<double> numbers;
+  int line = 1;
+  for (const char* p = text.c_str(); *p != '\0';) {
+    if (*p == '#') {
+      while (*p != '\0' && *p != '\n') ++p;
+    } else if (*p == '\n' || *p == ' ' || *p == ',' || *p == '\t' || *p == '\r') {
+      line += *p == '\n' ? 1 : 0;
+      ++p;
+    } else {
+      double value = 0;
+      const auto [end, error] = std::from_chars(p, text.c_str() + text.size(), value);
+      if (error != std::errc()) throw Error(fmt::format("{}: line {} holds no number", path.string(), line));
+      numbers.push_back(value);
+      p = end;
+    }
+  }
+  return numbers;
+}
+
+std::optional<Response> response_of(const std::string& name) {
+  if (name == "auto") return std::nullopt;
+  if (name == "srgb") return Response::srgb();
+  if (name == "linear") return Response::linear();
+  if (name.starts_with("gamma:")) {
+    double exponent = 0;
+    const char* first = name.c_str() + 6;
+    const auto [end, error] = std::from_chars(first, name.c_str() + name.size(), exponent);
+    if (error != std::errc() || *end != '\0' || !(exponent > 0)) {
+      throw CLI::ValidationError("--response", "gamma:G needs a positive number, as in gamma:2.2");
+    }
+    return Response::gamma(exponent);
+  }
+  Response response;
+  for (const double value : read_numbers(name)) response.curve.push_back(static_cast<float>(value));
+  if (response.curve.size() < 2 || !(response.curve.back() > response.curve.front())) {
+    throw Error(fmt::format("{}: a response curve is at least two rising numbers, the light for evenly spaced codes", name));
+  }
+  return response;
+}
+
+}  // namespace
+
+void add_capture_options(CLI::App& command, CaptureArguments& a) {
+  CaptureOptions& o = a.options;
+  command.add_option("--report", a.report, "Folder for report.json and report.html");
+  command.add_option("--size", o.size, "Texels along each normal axis (S)")->check(CLI::Range(16, 1024));
+  command.add_option("--slices", o.slices, "Tangent angles in one period (S_k)")->check(CLI::Range(4, 2048));
+  command.add_option("--symmetry", a.symmetry, "R: equivalent turns to average; auto takes the largest found")
+      ->check(CLI::IsMember({"auto", "1", "2", "3", "4"}));
+  command.add_option("--threshold", o.symmetry_threshold, "PSNR in dB from which a turn counts as alike");
+  command.add_option("--encoding", a.encoding, "Texels in the file")->check(CLI::IsMember({"srgb8", "half"}));
+
+  const auto lens = "Lens";
+  command.add_option("--focal-mm", o.focal_mm, "Focal length in mm (otherwise EXIF); needs the sensor's width")
+      ->check(CLI::PositiveNumber)
+      ->group(lens);
+  command.add_option("--sensor-mm", o.sensor_mm, "Width of the sensor in mm")->check(CLI::PositiveNumber)->group(lens);
+  command.add_option("--fov", a.fov, "Horizontal field of view in degrees")->check(CLI::Range(1.0, 170.0))->group(lens);
+  command.add_option("--calibration", a.calibration, "Camera from sateen capture calibrate (JSON)")->group(lens);
+  command
+      .add_option("--perspective", a.perspective,
+                  "Normals relative to the eye from each surface point, or to the camera's axis")
+      ->check(CLI::IsMember({"eye", "view"}))
+      ->group(lens);
+
+  const auto turning = "Turning";
+  command
+      .add_option("--angles", a.angles,
+                  "How far each frame is turned: pictures (found out), equal (one full turn in equal steps), or a text file "
+                  "of degrees, counter-clockwise")
+      ->group(turning);
+  command.add_option("--direction", a.direction, "Of equal steps, as the picture shows it")
+      ->check(CLI::IsMember({"ccw", "cw"}))
+      ->group(turning);
+  command.add_option("--max-frames", o.source.max_frames, "Of longer sequences every n-th frame is used")
+      ->check(CLI::Range(kFewestCaptureFrames, 100000))
+      ->group(turning);
+
+  const auto tangent = "Tangent (all angles in degrees, counter-clockwise from the picture's right)";
+  a.first_angle_option =
+      command.add_option("--first-angle", a.first_angle, "The tangent's direction in the first frame")->group(tangent);
+  a.thread_option = command
+                        .add_option("--thread-direction", a.thread_direction,
+                                    "The tangent's direction read off one frame, in the middle of the sphere")
+                        ->group(tangent);
+  command.add_option("--thread-frame", a.thread_frame, "The frame it was read off, counted from 0")
+      ->needs(a.thread_option)
+      ->group(tangent);
+  a.seam_option =
+      command
+          .add_option("--tangent-from-seam", a.from_seam,
+                      "The tangent's direction relative to where the seam lies, seen from the middle; -90 for a seam at "
+                      "the pole of the parallels the threads follow")
+          ->group(tangent);
+  a.weave_option = command
+                       .add_option("--tangent-from-weave", a.from_weave,
+                                   "The tangent's direction relative to the threads visible in the middle")
+                       ->group(tangent);
+  const std::vector<CLI::Option*> zeros{a.first_angle_option, a.thread_option, a.seam_option, a.weave_option};
+  for (CLI::Option* one : zeros) {
+    for (CLI::Option* other : zeros) {
+      if (one != other) one->excludes(other);
+    }
+  }
+
+  const auto light = "Light and seams";
+  command
+      .add_option("--response", a.response,
+                  "From code values to light: auto (sRGB, or linear for EXR and HDR), srgb, linear, gamma:G, or a text file "
+                  "of numbers")
+      ->group(light);
+  command.add_option("--mask", o.mask, "Picture of one frame's size, white where the sphere shows no clean material")
+      ->group(light);
+  command.add_option("--mask-frame", o.mask_frame, "The frame the mask was painted on, counted from 0")->group(light);
+  command.add_flag("--keep-seams", a.keep_seams, "Do not look for seams")->group(light);
+}
+
+CaptureOptions capture_options(const CaptureArguments& a) {
+  CaptureOptions o = a.options;
+  if (a.symmetry != "auto") o.symmetry = std::stoi(a.symmetry);
+  o.encoding = a.encoding == "half" ? AmcEncoding::half : AmcEncoding::srgb8;
+  o.frame = a.perspective == "eye" ? TableFrame::eye : TableFrame::view;
+  o.fov = radians(a.fov);
+  o.find_blemishes = !a.keep_seams;
+  o.source.response = response_of(a.response);
+  if (!a.calibration.empty()) o.camera = read_camera(a.calibration);
+  if (a.angles == "equal") {
+    o.angle_source = AngleSource::equal;
+    o.clockwise = a.direction == "cw";
+  } else if (a.angles != "pictures") {
+    o.angle_source = AngleSource::given;
+    for (const double angle : read_numbers(a.angles)) o.angles.push_back(radians(angle));
+  }
+  if (a.first_angle_option->count() > 0) {
+    o.zero_given = true;
+    o.zero_angle = radians(a.first_angle);
+  } else if (a.thread_option->count() > 0) {
+    o.zero = ZeroAngle::thread;
+    o.zero_angle = radians(a.thread_direction);
+    o.zero_frame = a.thread_frame;
+  } else if (a.seam_option->count() > 0) {
+    o.zero = ZeroAngle::seam;
+    o.zero_angle = radians(a.from_seam);
+  } else if (a.weave_option->count() > 0) {
+    o.zero = ZeroAngle::weave;
+    o.zero_angle = radians(a.from_weave);
+  }
+  return o;
+}
+
+void report_capture(const CaptureArguments& arguments, const CaptureResult& result) {
+  for (const std::string& warning : result.warnings) warn(warning);
+  if (!arguments.report.empty()) write_report(arguments.report, result);
+}
+
+}  // namespace sateen::cli

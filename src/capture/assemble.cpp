@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: MIT
+#include "sateen/capture/assemble.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "sateen/core/direction.h"
+#include "sateen/core/parallel.h"
+
+namespace sateen {
+namespace {
+
+constexpr double kWidestBridge = 1.0 / 9;  // turns
+
+struct Sample {
+  double angle = 0;  // turns, within one period
+  float weight = 0;
+  std::array<float, 3> rgb{};
+};
+
+/// Weighted sums of a quadratic least-squares fit in u = (angle - target) / half width.
+struct Moments {
+  std::array<double, 5> s{};                   // of u^0 .. u^4
+  std::array<std::array<double, 3>, 3> t{};    // of u^0 .. u^2 times r, g, b
+  double left = 0;
+  double right = 0;
+  int count = 0;
+
+  void add(const Sample& sample, double u) {
+    const double hat = 1 - u * u;
+    const double w = hat * hat * static_cast<double>(sample.weight);
+    double power = w;
+    for (std::size_t p = 0; p < 5; ++p) {
+      s[p] += power;
+      if (p < 3) {
+        for (std::size_t c = 0; c < 3; ++c) t[p][c] += power * static_cast<double>(sample.rgb[c]);
+      }
+      power *= u;
+    }
+    (u < 0 ? left : right) += w;
+    ++count;
+  }
+
+  /// The fit's value at u = 0, of the highest degree the samples carry.
+  std::array<float, 3> value() const {
+    std::array<float, 3> result{};
+    // Shares of the three right-hand sides in the constant term, by Cramer's rule.
+    double a = 1 / s[0];
+    double b = 0;
+    double c = 0;
+    const bool two_sided = left > 0.05 * s[0] && right > 0.05 * s[0];
+    const double linear = s[0] * s[2] - s[1] * s[1];
+    const double quadratic = s[0] * (s[2] * s[4] - s[3] * s[3]) - s[1] * (s[1] * s[4] - s[2] * s[3]) +
+                             s[2] * (s[1] * s[3] - s[2] * s[2]);
+    if (two_sided && count >= 4 && quadratic > 1e-4 * s[0] * s[0] * s[0]) {
+      a = (s[2] * s[4] - s[3] * s[3]) / quadratic;
+      b = -(s[1] * s[4] - s[2] * s[3]) / quadratic;
+      c = (s[1] * s[3] - s[2] * s[2]) / quadratic;
+    } else if (two_sided && linear > 1e-4 * s[0] * s[0]) {
+      a = s[2] / linear;
+      b = -s[1] / linear;
+    }
+    for (std::size_t i = 0; i < 3; ++i) result[i] = static_cast<float>(a * t[0][i] + b * t[1][i] + c * t[2][i]);
+    return result;
+  }
+};
+
+/// Typical distance between different angles: coinciding samples (a second turn, an equivalent slice) count once.
+double spacing_of(const std::vector<Sample>& samples, double period) {
+  const double close = 0.25 * period / static_cast<double>(samples.size());
+  int different = 1;
+  for (std::size_t i = 1; i < samples.size(); ++i) {
+    if (samples[i].angle - samples[i - 1].angle > close) ++different;
+  }
+  return period / different;
+}
+
+/// How a texel's light at one angle is known.
+enum class Known { no, bridged, measured };
+
+/// The light at `target` from samples sorted by angle and repeated over three periods. Inside a gap wider than the fit
+/// (a masked seam passing) the two shores are blended; beyond `widest` nothing is known.
+Known fit_at(const std::vector<Sample>& samples, double target, double half_width, double widest,
+             std::array<float, 3>& rgb) {
+  const auto above = std::ranges::lower_bound(samples, target, {}, &Sample::angle);
+  if (above == samples.begin() || above == samples.end()) return Known::no;
+  const auto below = above - 1;
+  const double gap = above->angle - below->angle;
+  if (gap > widest) return Known::no;
+  if (gap > 1.5 * half_width) {
+    const auto mix = static_cast<float>((target - below->angle) / gap);
+    for (std::size_t c = 0; c < 3; ++c) rgb[c] = below->rgb[c] + mix * (above->rgb[c] - below->rgb[c]);
+    return Known::bridged;
+  }
+  Moments moments;
+  auto it = std::ranges::lower_bound(samples, target - half_width, {}, &Sample::angle);
+  for (; it != samples.end() && it->angle < target + half_width; ++it) moments.add(*it, (it->angle - target) / half_width);
+  if (moments.count == 0) return Known::no;
+  rgb = moments.value();
+  return Known::measured;
+}
+
+/// Grows known texels over unknown ones, ring by ring, as the mean of the known neighbours.
+void fill_from_neighbours(Image& slice, std::vector<std::uint8_t> known) {
+  const int size = slice.width;
+  std::vector<std::pair<std::size_t, Vec3f>> grown;
+  std::vector<std::size_t> unknown;
+  for (std::size_t i = 0; i < known.size(); ++i) {
+    if (known[i] == 0) unknown.push_back(i);
+  }
+  while (!unknown.empty()) {
+    grown.clear();
+    std::vector<std::size_t> later;
+    for (const std::size_t i : unknown) {
+      const int x = static_cast<int>(i) % size;
+      const int y = static_cast<int>(i) / size;
+      Vec3f sum(0, 0, 0);
+      float weight = 0;
+      for (int v = -1; v <= 1; ++v) {
+        for (int u = -1; u <= 1; ++u) {
+          const int nx = x + u;
+          const int ny = y + v;
+          if (nx < 0 || ny < 0 || nx >= size || ny >= size) continue;
+          if (known[static_cast<std::size_t>(ny * size + nx)] == 0) continue;
+          const float w = u != 0 && v != 0 ? 0.7f : 1.0f;
+          sum += w * slice.rgb(nx, ny);
+          weight += w;
+        }
+      }
+      if (weight > 0) {
+        grown.emplace_back(i, sum / weight);
+      } else {
+        later.push_back(i);
+      }
+    }
+    if (grown.empty()) return;
+    for (const auto& [i, colour] : grown) {
+      slice.set_rgb(static_cast<int>(i) % size, static_cast<int>(i) / size, colour);
+      known[i] = 1;
+    }
+    unknown = std::move(later);
+  }
+}
+
+}  // namespace
+
+AssembledSlices assemble(const RectifiedStack& stack, const SurfaceMask& mask, double first_angle, int count,
+                         int symmetry) {
+  const int size = stack.size;
+  const auto texels = static_cast<std::size_t>(size) * static_cast<std::size_t>(size);
+  const double period = 1.0 / symmetry;
+  const AxisFrame axes(stack.axis);
+  AssembledSlices result;
+  result.slices.assign(static_cast<std::size_t>(count), Image(size, size, 3));
+  result.seen.assign(texels * static_cast<std::size_t>(count), 0);
+  parallel_for(size, [&](int y) {
+    std::vector<Sample> samples;
+    std::vector<Sample> repeated;
+    for (int x = 0; x < size; ++x) {
+      const auto i = static_cast<std::size_t>(y * size + x);
+      const SeenPoint& point = stack.points[i];
+      if (!point.visible) continue;
+      const TangentAngle tangent(point, stack.frame, axes);
+      samples.clear();
+      for (std::size_t f = 0; f < stack.frames.size(); ++f) {
+        const RectifiedFrame& frame = stack.frames[f];
+        if (frame.weight[i] == 0 || mask.excludes(body_point(axes, point.normal, stack.angles[f]))) continue;
+        Sample sample;
+        sample.angle = wrap(tangent.at(first_angle, stack.angles[f]), period);
+        sample.weight = static_cast<float>(frame.weight[i]) / 255.0f;
+        for (std::size_t c = 0; c < 3; ++c) sample.rgb[c] = static_cast<float>(frame.rgb[i * 3 + c]);
+        samples.push_back(sample);
+      }
+      if (samples.size() < 3) continue;
+      std::ranges::sort(samples, {}, &Sample::angle);
+      const double spacing = std::max(spacing_of(samples, period), period / count);
+      repeated.clear();
+      for (const double turn : {-period, 0.0, period}) {
+        for (Sample sample : samples) {
+          sample.angle += turn;
+          repeated.push_back(sample);
+        }
+      }
+      for (int slice = 0; slice < count; ++slice) {
+        std::array<float, 3> rgb{};
+        const Known known = fit_at(repeated, period * slice / count, 2 * spacing, std::max(4 * spacing, kWidestBridge), rgb);
+        if (known == Known::no) continue;
+        result.slices[static_cast<std::size_t>(slice)].set_rgb(
+            x, y, Vec3f(std::max(0.0f, rgb[0]), std::max(0.0f, rgb[1]), std::max(0.0f, rgb[2])));
+        result.seen[static_cast<std::size_t>(slice) * texels + i] = known == Known::measured ? 1 : 2;
+      }
+    }
+  });
+  parallel_for(count, [&](int slice) {
+    const auto first = result.seen.begin() + static_cast<std::ptrdiff_t>(static_cast<std::size_t>(slice) * texels);
+    fill_from_neighbours(result.slices[static_cast<std::size_t>(slice)],
+                         {first, first + static_cast<std::ptrdiff_t>(texels)});
+  });
+  double inside = 0;
+  double seen = 0;
+  for (std::size_t i = 0; i < result.seen.size(); ++i) {
+    const auto texel = static_cast<int>(i % texels);
+    if (disc_of_pixel(texel % size, texel / size, size).norm() >= 1) continue;
+    ++inside;
+    seen += result.seen[i] == 1 ? 1 : 0;
+  }
+  result.seen_share = seen / inside;
+  return result;
+}
+
+}  // namespace sateen

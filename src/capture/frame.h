@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "sateen/core/image.h"
+#include "sateen/io/picture8.h"
+
+namespace sateen {
+
+/// From the code values of a camera or file to linear light, both in [0, 1]; any number of evenly spaced entries,
+/// linear between them.
+struct Response {
+  std::vector<float> curve;
+
+  static Response srgb();
+  static Response linear();
+  static Response gamma(double exponent);
+  float operator()(float code) const;
+};
+
+/// One picture of a capture: 8-bit code values with the response that makes them light, or light itself.
+/// Made once and then read by one thread or many.
+class Frame {
+ public:
+  Frame() = default;
+  Frame(Picture8 picture, const Response& response);
+  /// `clip`: the value from which on a sample counts as clipped.
+  Frame(Image light, float clip);
+
+  int width() const { return width_; }
+  int height() const { return height_; }
+
+  Vec3f rgb(int x, int y) const {
+    if (light_.empty()) {
+      const std::uint8_t* p = codes_.data() + offset(x, y);
+      return {table_[p[0]], table_[p[1]], table_[p[2]]};
+    }
+    return light_.rgb(x, y);
+  }
+  /// (R + 2 G + B) / 4: all that finding and registering needs.
+  float grey(int x, int y) const {
+    const Vec3f c = rgb(x, y);
+    return 0.25f * (c[0] + 2 * c[1] + c[2]);
+  }
+  bool clipped(int x, int y) const {
+    if (light_.empty()) {
+      const std::uint8_t* p = codes_.data() + offset(x, y);
+      return p[0] >= 254 || p[1] >= 254 || p[2] >= 254;
+    }
+    return light_.rgb(x, y).maxCoeff() >= clip_;
+  }
+  /// Bilinear, clamped to the edge; pixel centres at +0.5.
+  float grey_at(double x, double y) const;
+  Vec3f rgb_at(double x, double y) const;
+
+  /// The picture's rectangle as light with 3 channels.
+  Image crop(int x, int y, int width, int height) const;
+
+ private:
+  std::size_t offset(int x, int y) const {
+    return (static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x)) * 3;
+  }
+
+  int width_ = 0;
+  int height_ = 0;
+  std::vector<std::uint8_t> codes_;
+  std::array<float, 256> table_{};
+  Image light_;
+  float clip_ = 1;
+};
+
+}  // namespace sateen

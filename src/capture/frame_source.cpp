@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: MIT
+#include "sateen/capture/frame_source.h"
+
+#include <algorithm>
+#include <cmath>
+#include <mutex>
+
+#include <fmt/format.h>
+#include <tbb/parallel_pipeline.h>
+#include <tbb/task_arena.h>
+
+#include "sateen/capture/bracket.h"
+#include "sateen/core/error.h"
+#include "sateen/io/file.h"
+#include "sateen/io/image.h"
+#include "sateen/io/video_reader.h"
+
+namespace sateen {
+namespace fs = std::filesystem;
+
+namespace {
+
+bool is_video_file(const fs::path& path) {
+  const auto known = video_extensions();
+  return std::ranges::find(known, extension_of(path)) != known.end();
+}
+
+int count_by_decoding(const fs::path& path) {
+  VideoReader reader(path);
+  int frames = 0;
+  while (reader.skip()) ++frames;
+  return frames;
+}
+
+}  // namespace
+
+FrameSource FrameSource::open(const std::vector<fs::path>& inputs, const FrameSourceOptions& options) {
+  FrameSource source;
+  source.options_ = options;
+  source.response_ = options.response.value_or(Response::srgb());
+  if (inputs.empty()) throw Error("no photographs given; name a folder, files or a video");
+
+  std::error_code code;
+  if (inputs.size() == 1 && is_video_file(inputs[0]) && !fs::is_directory(inputs[0], code)) {
+    const VideoReader reader(inputs[0]);
+    source.video_ = true;
+    source.files_ = inputs;
+    source.width_ = reader.width();
+    source.height_ = reader.height();
+    int frames = reader.promised_frames();
+    if (frames < 1) frames = count_by_decoding(inputs[0]);
+    source.stride_ = std::max(1, (frames + options.max_frames - 1) / options.max_frames);
+    source.count_ = (frames + source.stride_ - 1) / source.stride_;
+    if (source.stride_ > 1) {
+      source.warnings_.push_back(fmt::format("the video has {} frames; every {}th is used (--max-frames)", frames,
+                                             source.stride_));
+    }
+    return source;
+  }
+  for (const fs::path& input : inputs) {
+    if (is_video_file(input)) {
+      throw Error(fmt::format("{}: a video has to be the only input, without other files beside it", input.string()));
+    }
+  }
+  source.files_ = expand_inputs(inputs, image_extensions());
+  const auto brackets = find_brackets(source.files_);
+  source.exposure_times_ = brackets;
+  const std::size_t group = std::max<std::size_t>(1, brackets.size());
+  source.count_ = static_cast<int>(source.files_.size() / group);
+  const int over = (source.count_ + options.max_frames - 1) / std::max(1, options.max_frames);
+  if (over > 1) {
+    source.stride_ = over;
+    source.count_ = (source.count_ + over - 1) / over;
+    source.warnings_.push_back(fmt::format("{} photographs given; every {}th is used (--max-frames)",
+                                           source.files_.size(), over));
+  }
+  const Frame first = source.decode(0);
+  source.width_ = first.width();
+  source.height_ = first.height();
+  return source;
+}
+
+const fs::path& FrameSource::path(int index) const {
+  if (video_) return files_[0];
+  const std::size_t group = std::max<std::size_t>(1, exposure_times_.size());
+  return files_[static_cast<std::size_t>(index * stride_) * group];
+}
+
+std::string FrameSource::name(int index) const {
+  const std::string file = path(index).filename().string();
+  return video_ ? fmt::format("{}#{}", file, index * stride_) : file;
+}
+
+Frame FrameSource::decode(int index) const {
+  const auto one = [&](const fs::path& file) {
+    const std::string extension = extension_of(file);
+    const bool floats = extension == ".exr" || extension == ".hdr";
+    if (!floats && read_image_info(file).bits == 8) return Frame(read_picture8(file), response_);
+    Image image = with_channels(read_data(file), 3);
+    if (!floats || options_.response) {
+      for (float& v : image.data) v = response_(v);
+    }
+    return Frame(std::move(image), floats ? std::numeric_limits<float>::infinity() : 0.995f);
+  };
+  if (exposure_times_.size() < 2) return one(path(index));
+  std::vector<Frame> group;
+  for (std::size_t i = 0; i < exposure_times_.size(); ++i) {
+    group.push_back(one(files_[static_cast<std::size_t>(index * stride_) * exposure_times_.size() + i]));
+  }
+  return merge_brackets(group, exposure_times_);
+}
+
+void FrameSource::visit(std::span<const int> indices, const std::function<void(int, const Frame&)>& body) {
+  struct Item {
+    int index = 0;
+    Picture8 picture;
+  };
+  std::optional<VideoReader> reader;
+  if (video_) reader.emplace(files_[0]);
+  std::size_t next = 0;
+  int position = 0;  // of the video's next frame
+  const auto tokens = static_cast<std::size_t>(tbb::this_task_arena::max_concurrency()) + (video_ ? 1 : 0);
+
+  tbb::parallel_pipeline(
+      tokens,
+      tbb::make_filter<void, Item>(tbb::filter_mode::serial_in_order,
+                                   [&](tbb::flow_control& control) {
+                                     Item item;
+                                     if (next >= indices.size()) {
+                                       control.stop();
+                                       return item;
+                                     }
+                                     item.index = indices[next++];
+                                     if (!video_) return item;
+                                     const int wanted = item.index * stride_;
+                                     bool more = true;
+                                     while (more && position < wanted) {
+                                       more = reader->skip();
+                                       position += more ? 1 : 0;
+                                     }
+                                     more = more && reader->next(item.picture);
+                                     position += more ? 1 : 0;
+                                     if (!more) {
+                                       const int readable = (position + stride_ - 1) / stride_;
+                                       if (readable < count_) {
+                                         warnings_.push_back(fmt::format(
+                                             "{}: promises {} frames, but only {} can be decoded: its end is "
+                                             "damaged or its index is wrong",
+                                             files_[0].filename().string(), count_ * stride_, position));
+                                         count_ = readable;
+                                       }
+                                       control.stop();
+                                     }
+                                     return item;
+                                   }) &
+          tbb::make_filter<Item, void>(tbb::filter_mode::parallel, [&](Item item) {
+            const Frame frame = video_ ? Frame(std::move(item.picture), response_) : decode(item.index);
+            if (frame.width() != width_ || frame.height() != height_) {
+              throw Error(fmt::format("{}: is {} x {} pixels, the first frame is {} x {}; all must be alike",
+                                      path(item.index).string(), frame.width(), frame.height(), width_, height_));
+            }
+            body(item.index, frame);
+          }));
+}
+
+Frame FrameSource::read(int index) {
+  if (!video_) return decode(index);
+  Frame result;
+  const std::array<int, 1> only{index};
+  visit(only, [&](int, const Frame& frame) { result = frame; });
+  return result;
+}
+
+}  // namespace sateen

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "sateen/capture/camera.h"
+#include "sateen/capture/frame.h"
+
+namespace sateen {
+
+struct FrameSourceOptions {
+  std::optional<Response> response;  ///< otherwise sRGB for 8- and 16-bit files, linear for EXR and HDR
+  int max_frames = 1024;             ///< of a longer video or sequence every n-th frame is used
+};
+
+/// The pictures of a capture, from files or a video, decoded when they are needed and never all in memory.
+class FrameSource {
+ public:
+  /// Photographs (files and folders, natural order) or one video. Photographs bracketed by exposure time (EXIF,
+  /// the same few times over and over) are merged, each group one frame.
+  /// Throws Error for missing files, a mix of photographs and video, pictures of different sizes.
+  static FrameSource open(const std::vector<std::filesystem::path>& inputs, const FrameSourceOptions& options);
+
+  /// An upper bound for a video whose index lies, until it was visited once.
+  int count() const { return count_; }
+  int width() const { return width_; }
+  int height() const { return height_; }
+  bool is_video() const { return video_; }
+  /// The file's name, for a video with #frame behind it.
+  std::string name(int index) const;
+  const std::filesystem::path& path(int index) const;
+  const std::vector<std::string>& warnings() const { return warnings_; }
+
+  /// Calls body(index, frame) for each of `indices` (ascending), from several threads at once, with only a few frames in
+  /// memory at any time. Throws what decoding and `body` throw; an Error for a picture of another size.
+  void visit(std::span<const int> indices, const std::function<void(int, const Frame&)>& body);
+
+  /// Frame `index` alone; of a video everything before it is decoded too.
+  Frame read(int index);
+
+ private:
+  Frame decode(int index) const;
+
+  std::vector<std::filesystem::path> files_;
+  std::vector<double> exposure_times_;  ///< of one bracketed group, seconds; one entry: no brackets
+  bool video_ = false;
+  int stride_ = 1;
+  int count_ = 0;
+  int width_ = 0;
+  int height_ = 0;
+  FrameSourceOptions options_;
+  Response response_;
+  std::vector<std::string> warnings_;
+};
+
+}  // namespace sateen

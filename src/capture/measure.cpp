@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: MIT
+#include "sateen/capture/measure.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <numeric>
+
+namespace sateen {
+namespace {
+
+constexpr int kScouts = 32;
+constexpr int kLargestPatch = 192;
+
+}  // namespace
+
+FirstLook first_look(FrameSource& source, const Camera& camera, const Progress& progress) {
+  FirstLook look;
+  look.factor = grey_factor(source.width(), source.height());
+  look.camera = camera.scaled(1.0 / look.factor);
+  std::vector<int> indices;
+  const int scouts = std::min(kScouts, source.count());
+  for (int i = 0; i < scouts; ++i) {
+    indices.push_back(static_cast<int>(static_cast<std::int64_t>(i) * source.count() / scouts));
+  }
+  std::vector<GreyPicture> greys(indices.size());
+  std::atomic<int> done = 0;
+  source.visit(indices, [&](int index, const Frame& frame) {
+    const auto at = std::ranges::lower_bound(indices, index) - indices.begin();
+    greys[static_cast<std::size_t>(at)] = grey_picture(frame, look.factor);
+    report(progress, static_cast<double>(++done) / scouts);
+  });
+  std::erase_if(greys, [](const GreyPicture& grey) { return grey.codes.empty(); });
+  look.scouting = find_sphere(greys);
+  look.outline = fit_outlines(greys, look.scouting, look.camera);
+  for (const Vec2& c : look.outline.centres) look.centre += c / static_cast<double>(look.outline.centres.size());
+  for (const Vec2& c : look.outline.centres) look.reach = std::max(look.reach, (c - look.centre).norm());
+  look.scouting.centre = look.centre;
+  look.scouting.radius = look.outline.radius;
+  look.still = still_points(look.scouting, greys[0].width, greys[0].height, look.factor,
+                            look.reach + 6 + 0.05 * look.outline.radius);
+  for (const Eigen::Vector2i& p : look.still.pixels) {
+    const int x = p.x() / look.factor;
+    const int y = p.y() / look.factor;
+    const double code = static_cast<double>(look.scouting.mean[static_cast<std::size_t>(y * greys[0].width + x)]);
+    look.still_grey.push_back(code * code / (255.0 * 255.0));
+  }
+  return look;
+}
+
+namespace {
+
+/// Gain of a frame's grey codes from its still points: the median ratio, as a square root like the codes.
+double code_gain(const FirstLook& look, const std::vector<Vec3f>& samples) {
+  std::vector<double> ratios;
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    if (samples[i][0] < 0 || look.still_grey[i] <= 0) continue;
+    const double grey = 0.25 * static_cast<double>(samples[i][0] + 2 * samples[i][1] + samples[i][2]);
+    ratios.push_back(grey / look.still_grey[i]);
+  }
+  if (ratios.size() < 50) return 1;
+  const auto half = ratios.begin() + static_cast<std::ptrdiff_t>(ratios.size() / 2);
+  std::ranges::nth_element(ratios, half);
+  return std::sqrt(std::max(1e-3, *half));
+}
+
+}  // namespace
+
+std::vector<FrameNotes> measure_frames(FrameSource& source, const FirstLook& look, const Mat3& axes,
+                                       const Progress& progress) {
+  const double radius = look.outline.radius;
+  const int patch_size = std::clamp(static_cast<int>(2 * radius * kPatchReach) / 2 * 2, 48, kLargestPatch);
+  const double margin = radius * 1.05 + look.reach + 12;
+  const GreyRegion region{
+      static_cast<int>(look.centre.x() - margin), static_cast<int>(look.centre.y() - margin),
+      static_cast<int>(look.centre.x() + margin) + 1, static_cast<int>(look.centre.y() + margin) + 1};
+  std::vector<FrameNotes> notes(static_cast<std::size_t>(source.count()));
+  std::vector<int> indices(notes.size());
+  std::iota(indices.begin(), indices.end(), 0);
+  std::atomic<int> done = 0;
+  source.visit(indices, [&](int index, const Frame& frame) {
+    FrameNotes& note = notes[static_cast<std::size_t>(index)];
+    const GreyPicture grey = grey_picture(frame, look.factor, region);
+    note.still = sample_still_points(look.still, frame);
+    const double gain = code_gain(look, note.still);
+    note.centre = look.centre;
+    for (const double reach : {look.reach + 4, 3.0}) {
+      const OutlineOffset offset = measure_outline(grey, gain, look.outline.plate, look.camera,
+                                                   sphere_at(look.camera, note.centre, radius), reach, true);
+      note.support = offset.support;
+      if (offset.support > 0.25) note.centre += offset.shift;
+    }
+    note.patch = surface_patch(grey, look.camera, sphere_at(look.camera, note.centre, radius), axes, patch_size);
+    note.read = true;
+    report(progress, static_cast<double>(++done) / static_cast<double>(indices.size()));
+  });
+  return notes;
+}
+
+}  // namespace sateen

@@ -1,0 +1,232 @@
+// SPDX-License-Identifier: MIT
+#include "sateen/capture/outline.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Cholesky>
+
+#include "sateen/core/error.h"
+#include "sateen/core/parallel.h"
+
+namespace sateen {
+namespace {
+
+constexpr int kAzimuths = 240;
+constexpr double kStep = 0.5;  // pixels between samples of a profile
+
+double light_of(std::uint8_t code) {
+  return code * code / (255.0 * 255.0);
+}
+
+/// Bilinear light of a grey picture, clamped to the edge. Edges are mixtures of light, not of codes.
+double light_at(const GreyPicture& picture, double x, double y) {
+  const double cx = std::clamp(x - 0.5, 0.0, picture.width - 1.0);
+  const double cy = std::clamp(y - 0.5, 0.0, picture.height - 1.0);
+  const int x0 = static_cast<int>(cx);
+  const int y0 = static_cast<int>(cy);
+  const int x1 = std::min(x0 + 1, picture.width - 1);
+  const int y1 = std::min(y0 + 1, picture.height - 1);
+  const double fx = cx - x0;
+  const double fy = cy - y0;
+  const double top = (1 - fx) * light_of(picture.at(x0, y0)) + fx * light_of(picture.at(x1, y0));
+  const double bottom = (1 - fx) * light_of(picture.at(x0, y1)) + fx * light_of(picture.at(x1, y1));
+  return (1 - fy) * top + fy * bottom;
+}
+
+/// Bilinear over the plate's known pixels; negative when any of the four is hidden.
+double plate_at(const Plate& plate, double x, double y) {
+  const double cx = std::clamp(x - 0.5, 0.0, plate.width - 1.0);
+  const double cy = std::clamp(y - 0.5, 0.0, plate.height - 1.0);
+  const int x0 = static_cast<int>(cx);
+  const int y0 = static_cast<int>(cy);
+  const int x1 = std::min(x0 + 1, plate.width - 1);
+  const int y1 = std::min(y0 + 1, plate.height - 1);
+  const auto value = [&](int u, int v) { return static_cast<double>(plate.light[static_cast<std::size_t>(v * plate.width + u)]); };
+  const double a = value(x0, y0);
+  const double b = value(x1, y0);
+  const double c = value(x0, y1);
+  const double d = value(x1, y1);
+  if (std::min({a, b, c, d}) < 0) return -1;
+  const double fx = cx - x0;
+  const double fy = cy - y0;
+  return (1 - fy) * ((1 - fx) * a + fx * b) + fy * ((1 - fx) * c + fx * d);
+}
+
+struct EdgePoint {
+  Vec2 outward{0, 0};   // pixel direction
+  double offset = 0;    // pixels along it
+  double strength = 0;  // light per pixel
+};
+
+/// The steepest change of `difference` to the background along the profile, as the centroid of its slope.
+bool find_edge(const std::vector<double>& difference, double reach, EdgePoint& edge) {
+  const std::size_t n = difference.size();
+  std::vector<double> slope(n, 0);
+  std::size_t peak = 0;
+  for (std::size_t i = 1; i + 1 < n; ++i) {
+    slope[i] = (difference[i + 1] - difference[i - 1]) / (2 * kStep);
+    if (std::abs(slope[i]) > std::abs(slope[peak])) peak = i;
+  }
+  if (peak < 3 || peak + 3 >= n) return false;
+  double sum = 0;
+  double moment = 0;
+  for (std::size_t i = peak - 3; i <= peak + 3; ++i) {
+    const double s = slope[i] * (slope[peak] > 0 ? 1 : -1);
+    if (s <= 0) continue;
+    sum += s;
+    moment += s * static_cast<double>(i);
+  }
+  edge.offset = moment / sum * kStep - reach;
+  edge.strength = std::abs(slope[peak]);
+  return true;
+}
+
+/// Robust least squares of offset = shift . outward + growth (Tukey's biweight).
+OutlineOffset fit_offset(const std::vector<EdgePoint>& edges, bool fixed_radius) {
+  OutlineOffset result;
+  double scale = 2;
+  for (int round = 0; round < 12; ++round) {
+    Mat3 normal = Mat3::Identity() * 1e-9;
+    Vec3 right = Vec3::Zero();
+    double weights = 0;
+    double squares = 0;
+    int inside = 0;
+    for (const EdgePoint& edge : edges) {
+      const Vec3 row(edge.outward.x(), edge.outward.y(), fixed_radius ? 0 : 1);
+      const double residual = edge.offset - edge.outward.dot(result.shift) - result.growth;
+      const double u = residual / (4 * scale);
+      if (std::abs(u) >= 1) continue;
+      const double w = (1 - u * u) * (1 - u * u) * edge.strength / (edge.strength + 0.02);
+      normal += w * row * row.transpose();
+      right += w * row * residual;
+      weights += w;
+      squares += w * residual * residual;
+      ++inside;
+    }
+    if (inside < 12) break;
+    const Vec3 step = normal.ldlt().solve(right);
+    result.shift += step.head<2>();
+    if (!fixed_radius) result.growth += step.z();
+    result.residual = std::sqrt(squares / weights);
+    result.support = static_cast<double>(inside) / kAzimuths;
+    scale = std::clamp(1.2 * result.residual, 0.12, scale);
+  }
+  return result;
+}
+
+}  // namespace
+
+OutlineOffset measure_outline(const GreyPicture& frame, double gain, const Plate& plate, const Camera& camera,
+                              const SphereView& sphere, double reach, bool fixed_radius) {
+  const Vec2 centre = sphere.centre_pixel(camera);
+  const auto n = static_cast<std::size_t>(2 * reach / kStep) + 1;
+  const double light_gain = gain * gain;
+  std::vector<EdgePoint> edges;
+  std::vector<double> difference(n);
+  for (int i = 0; i < kAzimuths; ++i) {
+    EdgePoint edge;
+    const Vec2 rim = sphere.outline_pixel(camera, 2 * kPi * i / kAzimuths);
+    edge.outward = (rim - centre).normalized();
+    double background = -1;
+    for (std::size_t j = n; j-- > 0;) {
+      const Vec2 p = rim + (static_cast<double>(j) * kStep - reach) * edge.outward;
+      const double known = plate_at(plate, p.x(), p.y());
+      // Behind the sphere the background is unknown: it goes on as it was last seen.
+      if (known >= 0) background = known;
+      difference[j] = light_at(frame, p.x(), p.y()) / light_gain - std::max(0.0, background);
+    }
+    if (background < 0) {
+      for (std::size_t j = 0; j < n; ++j) {
+        const Vec2 p = rim + (static_cast<double>(j) * kStep - reach) * edge.outward;
+        difference[j] = light_at(frame, p.x(), p.y()) / light_gain;
+      }
+    }
+    if (find_edge(difference, reach, edge) && edge.strength > 0.004) edges.push_back(edge);
+  }
+  return fit_offset(edges, fixed_radius);
+}
+
+namespace {
+
+/// The background in a ring around the spheres: the median over the frames that show it clear of the outline.
+Plate background_plate(std::span<const GreyPicture> frames, const Scouting& scouting, const std::vector<Vec2>& centres,
+                       double radius, double margin) {
+  Plate plate;
+  plate.width = frames[0].width;
+  plate.height = frames[0].height;
+  plate.light.assign(frames[0].codes.size(), -1);
+  Vec2 middle(0, 0);
+  for (const Vec2& c : centres) middle += c / static_cast<double>(centres.size());
+  const double ring = radius * 1.1 + 12;
+  parallel_for(plate.height, [&](int y) {
+    std::vector<float> values;
+    for (int x = 0; x < plate.width; ++x) {
+      const Vec2 p(x + 0.5, y + 0.5);
+      const double distance = (p - middle).norm();
+      if (distance > ring || distance < 0.8 * radius) continue;
+      values.clear();
+      const auto i = static_cast<std::size_t>(y * plate.width + x);
+      for (std::size_t f = 0; f < frames.size(); ++f) {
+        if ((p - centres[f]).norm() < radius + margin) continue;
+        const double gain = static_cast<double>(scouting.gain[f]);
+        values.push_back(static_cast<float>(light_of(frames[f].codes[i]) / (gain * gain)));
+      }
+      if (values.empty()) continue;
+      const auto half = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+      std::ranges::nth_element(values, half);
+      plate.light[i] = *half;
+    }
+  });
+  return plate;
+}
+
+double median(std::vector<double> values) {
+  const auto half = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::ranges::nth_element(values, half);
+  return *half;
+}
+
+}  // namespace
+
+OutlineFit fit_outlines(std::span<const GreyPicture> frames, const Scouting& scouting, const Camera& camera) {
+  OutlineFit fit;
+  const std::size_t n = frames.size();
+  fit.radius = scouting.radius;
+  fit.centres.assign(n, scouting.centre);
+  fit.residuals.assign(n, 0);
+  // The swept circle is larger than the sphere by the wobble, which is unknown yet: the first search is wide.
+  const std::vector<double> reaches{std::clamp(0.08 * scouting.radius, 6.0, 16.0), 6, 4, 3, 3};
+  for (std::size_t round = 0; round < reaches.size(); ++round) {
+    const double margin = round == 0 ? 3 : 2;
+    fit.plate = background_plate(frames, scouting, fit.centres, fit.radius, margin);
+    std::vector<OutlineOffset> offsets(n);
+    parallel_for(static_cast<int>(n), [&](int f) {
+      const auto i = static_cast<std::size_t>(f);
+      const SphereView sphere = sphere_at(camera, fit.centres[i], fit.radius);
+      offsets[i] = measure_outline(frames[i], static_cast<double>(scouting.gain[i]), fit.plate, camera, sphere,
+                                   reaches[round], false);
+    });
+    std::vector<double> growths;
+    for (const OutlineOffset& offset : offsets) {
+      if (offset.support > 0.3) growths.push_back(offset.growth);
+    }
+    if (growths.size() * 2 < n) {
+      throw Error(
+          "the sphere's outline cannot be told from the background; put something plain behind it that is brighter or "
+          "darker than the material");
+    }
+    const double growth = median(growths);
+    fit.radius += growth;
+    fit.support = 0;
+    for (std::size_t i = 0; i < n; ++i) {
+      // With the common radius the shift is what is left; growth and shift are independent around a whole outline.
+      if (offsets[i].support > 0.3) fit.centres[i] += offsets[i].shift;
+      fit.residuals[i] = offsets[i].residual;
+      fit.support += offsets[i].support / static_cast<double>(n);
+    }
+  }
+  return fit;
+}
+
+}  // namespace sateen

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: MIT
+#include "sateen/capture/rectify.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "sateen/core/direction.h"
+#include "sateen/core/parallel.h"
+
+namespace sateen {
+
+RectifyMap::RectifyMap(const Camera& camera, const SphereView& mean, int size, TableFrame frame, double rim_pixels)
+    : size_(size), frame_(frame), centre_(mean.centre_pixel(camera)) {
+  const double radius = mean.radius_pixel(camera);
+  const double footprint = 2 * radius / size;
+  // Bilinear samples reach a pixel: one for each pixel and a half of the footprint leaves no gaps.
+  samples_ = std::clamp(static_cast<int>(std::ceil(footprint / 1.2)), 2, 8);
+  const int fine = size * samples_;
+  const double visible_reach = 1 - rim_pixels / radius;
+  const SphereView right = sphere_at(camera, centre_ + Vec2(1, 0), radius);
+  const SphereView down = sphere_at(camera, centre_ + Vec2(0, 1), radius);
+  grid_.resize(static_cast<std::size_t>(fine) * static_cast<std::size_t>(fine));
+  points_.resize(static_cast<std::size_t>(size) * static_cast<std::size_t>(size));
+  parallel_for(fine, [&](int y) {
+    for (int x = 0; x < fine; ++x) {
+      Sample& sample = grid_[static_cast<std::size_t>(y) * static_cast<std::size_t>(fine) + static_cast<std::size_t>(x)];
+      const Vec2 disc = disc_of_pixel(x, y, fine);
+      sample = {};
+      if (disc.norm() >= 1) continue;
+      const SeenPoint point = point_of_disc(mean, disc, frame);
+      // Distance from the outline in sines of the angle to the view ray: what the eye frame's disc is made of.
+      const double cosine = point.normal.dot(point.towards_eye);
+      if (!point.visible || std::sqrt(std::max(0.0, 1 - cosine * cosine)) > visible_reach || cosine <= 0) continue;
+      const Vec2 p = camera.project(mean.centre + point.normal);
+      const Vec2 dx = camera.project(right.centre + point_of_disc(right, disc, frame).normal) - p;
+      const Vec2 dy = camera.project(down.centre + point_of_disc(down, disc, frame).normal) - p;
+      sample = {static_cast<float>(p.x()),  static_cast<float>(p.y()),  static_cast<float>(dx.x()),
+                static_cast<float>(dx.y()), static_cast<float>(dy.x()), static_cast<float>(dy.y()),
+                true};
+    }
+  });
+  parallel_for(size, [&](int y) {
+    for (int x = 0; x < size; ++x) {
+      points_[static_cast<std::size_t>(y * size + x)] = point_of_disc(mean, disc_of_pixel(x, y, size), frame);
+    }
+  });
+}
+
+Vec2 RectifyMap::pixel(int x, int y) const {
+  const int fine = size_ * samples_;
+  const int at = samples_ / 2;
+  const Sample& sample = grid_[static_cast<std::size_t>(y * samples_ + at) * static_cast<std::size_t>(fine) +
+                               static_cast<std::size_t>(x * samples_ + at)];
+  return {static_cast<double>(sample.x), static_cast<double>(sample.y)};
+}
+
+RectifiedFrame rectify(const RectifyMap& map, const Frame& frame, const Vec2& centre, const Vec3& gain) {
+  const int size = map.size_;
+  const int n = map.samples_;
+  const int fine = size * n;
+  const auto texels = static_cast<std::size_t>(size) * static_cast<std::size_t>(size);
+  const Vec2f shift = (centre - map.centre_).cast<float>();
+  const Vec3f scale = gain.cwiseInverse().cast<float>();
+  RectifiedFrame result;
+  result.size = size;
+  result.rgb.resize(texels * 3);
+  result.weight.assign(texels, 0);
+  result.clipped.assign(texels, 0);
+  for (int y = 0; y < size; ++y) {
+    for (int x = 0; x < size; ++x) {
+      Vec3f sum(0, 0, 0);
+      int seen = 0;
+      int clipped = 0;
+      for (int v = 0; v < n; ++v) {
+        const RectifyMap::Sample* row =
+            map.grid_.data() + static_cast<std::size_t>(y * n + v) * static_cast<std::size_t>(fine) + x * n;
+        for (int u = 0; u < n; ++u) {
+          const RectifyMap::Sample& s = row[u];
+          if (!s.seen) continue;
+          const float px = s.x + shift.x() * s.along_x_x + shift.y() * s.along_y_x;
+          const float py = s.y + shift.x() * s.along_x_y + shift.y() * s.along_y_y;
+          sum += frame.rgb_at(static_cast<double>(px), static_cast<double>(py));
+          const int ix = std::clamp(static_cast<int>(px), 0, frame.width() - 1);
+          const int iy = std::clamp(static_cast<int>(py), 0, frame.height() - 1);
+          clipped += frame.clipped(ix, iy) ? 1 : 0;
+          ++seen;
+        }
+      }
+      if (seen == 0) continue;
+      const auto i = static_cast<std::size_t>(y * size + x);
+      const Vec3f mean = (sum / static_cast<float>(seen)).cwiseProduct(scale);
+      for (int c = 0; c < 3; ++c) result.rgb[i * 3 + static_cast<std::size_t>(c)] = static_cast<Half>(mean[c]);
+      result.weight[i] = static_cast<std::uint8_t>(255 * seen / (n * n));
+      result.clipped[i] = static_cast<std::uint8_t>(255 * clipped / seen);
+    }
+  }
+  return result;
+}
+
+}  // namespace sateen

@@ -1,0 +1,232 @@
+// SPDX-License-Identifier: MIT
+#include "sateen/capture/report.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include "sateen/amc/sheet.h"
+#include "sateen/core/direction.h"
+#include "sateen/core/error.h"
+#include "sateen/io/file.h"
+#include "sateen/io/image.h"
+
+namespace sateen {
+namespace fs = std::filesystem;
+
+namespace {
+
+std::string base64(const std::vector<std::byte>& bytes) {
+  static constexpr char kAlphabet[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string text;
+  text.reserve((bytes.size() + 2) / 3 * 4);
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    unsigned group = 0;
+    for (std::size_t j = 0; j < 3; ++j) {
+      group = group << 8 | (i + j < bytes.size() ? std::to_integer<unsigned>(bytes[i + j]) : 0u);
+    }
+    for (std::size_t j = 0; j < 4; ++j) {
+      text += i + j > bytes.size() ? '=' : kAlphabet[group >> (18 - 6 * j) & 63];
+    }
+  }
+  return text;
+}
+
+/// A picture as a data URL. The file writer goes through a file, which lives beside the report for a moment.
+std::string data_url(const fs::path& folder, const Image& image) {
+  const fs::path temporary = folder / fmt::format(".picture-{}.png", getpid());
+  write_image(temporary, image);
+  const auto bytes = read_bytes(temporary);
+  fs::remove(temporary);
+  return "data:image/png;base64," + base64(bytes);
+}
+
+std::string escaped(const std::string& text) {
+  std::string result;
+  for (const char c : text) {
+    if (c == '<') {
+      result += "&lt;";
+    } else if (c == '&') {
+      result += "&amp;";
+    } else {
+      result += c;
+    }
+  }
+  return result;
+}
+
+/// A small line chart over the frames, as SVG. Frames that are not used are left out.
+std::string chart(const CaptureResult& result, const std::string& title, const std::string& unit,
+                  const std::function<double(const CaptureFrame&)>& value) {
+  double low = 1e300;
+  double high = -1e300;
+  for (const CaptureFrame& frame : result.frames) {
+    if (!frame.dropped.empty()) continue;
+    low = std::min(low, value(frame));
+    high = std::max(high, value(frame));
+  }
+  const double range = std::max(high - low, 1e-6);
+  std::string points;
+  std::string dropped;
+  const double n = static_cast<double>(std::max<std::size_t>(2, result.frames.size()));
+  for (std::size_t i = 0; i < result.frames.size(); ++i) {
+    const double x = 40 + 400 * static_cast<double>(i) / (n - 1);
+    if (!result.frames[i].dropped.empty()) {
+      dropped += fmt::format("<line x1='{0:.1f}' x2='{0:.1f}' y1='16' y2='104' class='drop'/>", x);
+      continue;
+    }
+    points += fmt::format("<circle cx='{:.1f}' cy='{:.1f}' r='1.4'/>", x, 100 - 80 * (value(result.frames[i]) - low) / range);
+  }
+  return fmt::format(
+      "<figure><svg viewBox='0 0 450 120' role='img' aria-label='{0}'><rect x='40' y='16' width='400' height='88' "
+      "class='frame'/>{1}{2}<text x='36' y='24' text-anchor='end'>{3:.4g}</text><text x='36' y='104' "
+      "text-anchor='end'>{4:.4g}</text></svg><figcaption>{0} ({5}) over the frames</figcaption></figure>",
+      title, dropped, points, high, low, unit);
+}
+
+/// The preview frame with the sphere's outline, centre and axis drawn on it.
+std::string framing(const CaptureResult& result, const std::string& picture) {
+  const double scale = static_cast<double>(result.preview.width) / result.camera.width;
+  const CaptureFrame& frame = result.frames[static_cast<std::size_t>(result.preview_frame)];
+  const SphereView sphere = sphere_at(result.camera, frame.centre, frame.radius);
+  std::string outline;
+  for (int i = 0; i < 180; ++i) {
+    const Vec2 p = scale * sphere.outline_pixel(result.camera, radians(2 * i));
+    outline += fmt::format("{:.1f},{:.1f} ", p.x(), p.y());
+  }
+  const Vec2 centre = scale * frame.centre;
+  const Vec2 pole = scale * result.camera.project(sphere.centre + result.axis);
+  const double radius = scale * frame.radius;
+  const Vec2 tangent(std::cos(frame.angle), -std::sin(frame.angle));
+  const Vec2 from = pole - 0.45 * radius * tangent;
+  const Vec2 to = pole + 0.45 * radius * tangent;
+  return fmt::format(
+      "<svg viewBox='0 0 {0} {1}' class='wide' role='img' aria-label='What was found'><image width='{0}' height='{1}' "
+      "href='{2}'/><polygon points='{3}' class='outline'/><circle cx='{4:.1f}' cy='{5:.1f}' r='3' class='outline'/><path "
+      "d='M{6:.1f} {7:.1f}m-9 0h18m-9 -9v18' class='axis'/><line x1='{8:.1f}' y1='{9:.1f}' x2='{10:.1f}' y2='{11:.1f}' "
+      "class='tangent'/><circle cx='{10:.1f}' cy='{11:.1f}' r='4' class='tangent'/></svg>",
+      result.preview.width, result.preview.height, picture, outline, centre.x(), centre.y(), pole.x(), pole.y(), from.x(),
+      from.y(), to.x(), to.y());
+}
+
+/// The body seen along the axis in the first frame: grey, lighter or darker where it deviates, red where it is masked.
+Image mask_picture(const CaptureResult& result) {
+  const int size = result.mask.size > 0 ? result.mask.size : result.table.size;
+  Image picture(size, size, 3, 0.02f);
+  for (int y = 0; y < size; ++y) {
+    for (int x = 0; x < size; ++x) {
+      if (disc_of_pixel(x, y, size).norm() >= 1) continue;
+      const auto i = static_cast<std::size_t>(y * size + x);
+      const float deviation = result.mask.size > 0 ? result.mask.deviation[i] : 0;
+      const float grey = std::clamp(0.25f * std::exp(deviation), 0.0f, 1.0f);
+      const bool masked = result.mask.size > 0 && result.mask.masked[i] != 0;
+      picture.set_rgb(x, y, masked ? Vec3f(0.7f, 0.05f, 0.03f) : Vec3f(grey, grey, grey));
+    }
+  }
+  return resized(picture, 256, 256);
+}
+
+Image clipped_picture(const CaptureResult& result) {
+  Image picture(result.clipped.width, result.clipped.height, 3, 0.02f);
+  for (int y = 0; y < picture.height; ++y) {
+    for (int x = 0; x < picture.width; ++x) {
+      if (disc_of_pixel(x, y, picture.width).norm() >= 1) continue;
+      const float share = std::sqrt(result.clipped.at(x, y, 0));
+      picture.set_rgb(x, y, {0.1f + 0.9f * share, 0.1f + 0.5f * share, 0.1f});
+    }
+  }
+  return resized(picture, 256, 256);
+}
+
+constexpr const char* kStyle = R"(
+body{font:16px/1.45 system-ui,sans-serif;margin:0 auto;max-width:1000px;padding:1rem;color:#222;background:#fafafa}
+h1{font-size:1.4rem}h2{font-size:1.1rem;margin-top:2rem}
+.good,.look{padding:.7rem 1rem;border-radius:6px;font-weight:600}
+.good{background:#dcefdc}.look{background:#f7e3c0}
+ul{padding-left:1.2rem}li{margin:.3rem 0}
+svg,img{max-width:100%}.wide{width:100%;background:#000}
+.outline{fill:none;stroke:#3f6;stroke-width:1.5}.axis{fill:none;stroke:#fc3;stroke-width:2}
+.tangent{fill:#f4a;stroke:#f4a;stroke-width:2}
+.frame{fill:#fff;stroke:#bbb}.drop{stroke:#e77}circle{fill:#26c}text{font-size:10px;fill:#555}
+.row{display:flex;flex-wrap:wrap;gap:1rem}figure{margin:0;flex:1 1 280px}figcaption{font-size:.85rem;color:#555}
+table{border-collapse:collapse}td,th{padding:.15rem .8rem .15rem 0;text-align:left;vertical-align:top}
+)";
+
+std::string facts(const CaptureResult& result) {
+  const auto used = std::ranges::count_if(result.frames, [](const CaptureFrame& f) { return f.dropped.empty(); });
+  const Vec2 centre = result.sphere.centre_pixel(result.camera);
+  std::string rows;
+  const auto row = [&](const std::string& name, const std::string& value) {
+    rows += "<tr><th>" + name + "</th><td>" + escaped(value) + "</td></tr>";
+  };
+  row("Frames", fmt::format("{} used of {}", used, result.frames.size()));
+  row("Sphere", fmt::format("centre ({:.1f}, {:.1f}), radius {:.1f} pixels; it wobbles by {:.1f}, {:.2f} unexplained",
+                            centre.x(), centre.y(), result.sphere.radius_pixel(result.camera), result.wobble,
+                            result.wobble_rms));
+  row("Turn", fmt::format("{:.1f} degrees {}, {}", std::abs(degrees(result.turned)),
+                          result.turned >= 0 ? "counter-clockwise" : "clockwise",
+                          result.equal_steps ? "in equal steps" : "in unequal steps"));
+  row("Tangent", result.zero_source);
+  row("Lens", fmt::format("focal length {:.0f} pixels ({})", result.camera.focal.x(), result.camera.focal_source));
+  row("Light", fmt::format("exposure drift {:.1f} %, clipped {:.1f} %", 100 * result.photometry.drift,
+                           100 * result.clipped_share));
+  row("Seams", fmt::format("{:.1f} % of the surface masked", 100 * result.mask.share));
+  std::string similar;
+  for (const Similarity& s : result.symmetry.similarities) {
+    if (s.turns > 1) similar += fmt::format("{}R = {}: {:.1f} dB", similar.empty() ? "" : ", ", s.turns, s.psnr);
+  }
+  row("Symmetry", fmt::format("R = {}{} ({})", result.table.symmetry, result.table.isotropic ? ", isotropic" : "", similar));
+  row("Table", fmt::format("{0} x {0} x {1}, {2:.1f} % measured, the rest filled", result.table.size, result.table.slices,
+                           100 * result.seen_share));
+  return "<table>" + rows + "</table>";
+}
+
+}  // namespace
+
+void write_report(const fs::path& folder, const CaptureResult& result) {
+  std::error_code code;
+  fs::create_directories(folder, code);
+  if (code || !fs::is_directory(folder)) {
+    throw Error(fmt::format("{}: cannot be made as a folder for the report", folder.string()));
+  }
+  write_text(folder / "report.json", report_json(result));
+
+  std::string warnings;
+  for (const std::string& warning : result.warnings) warnings += "<li>" + escaped(warning) + ".</li>";
+  const std::string verdict =
+      result.warnings.empty()
+          ? "<p class='good'>Nothing to complain about: this capture can be used.</p>"
+          : fmt::format("<p class='look'>Usable, but look at {} before you put the sphere away:</p><ul>{}</ul>",
+                        result.warnings.size() == 1 ? "one thing" : fmt::format("{} things", result.warnings.size()),
+                        warnings);
+  std::string dropped;
+  for (const CaptureFrame& frame : result.frames) {
+    if (!frame.dropped.empty()) dropped += fmt::format("<li>{}: {}</li>", escaped(frame.file), frame.dropped);
+  }
+  if (!dropped.empty()) dropped = "<h2>Frames left out</h2><ul>" + dropped + "</ul>";
+  const auto picture = [&](const Image& image, const std::string& caption) {
+    return fmt::format("<figure><img src='{}' alt='{}'><figcaption>{}</figcaption></figure>", data_url(folder, image), caption,
+                       caption);
+  };
+  const Vec2 middle = result.sphere.centre_pixel(result.camera);
+  const std::string html = fmt::format(
+      "<!doctype html><html lang='en'><meta charset='utf-8'><meta name='viewport' content='width=device-width'>"
+      "<title>Capture report</title><style>{}</style><h1>Capture report</h1>{}{}"
+      "<h2>What was found</h2>{}<p><small>Green: the sphere's outline and centre. Yellow cross: where the turning axis leaves "
+      "it. Pink: the tangent's direction in this frame.</small></p><h2>Slices</h2>{}<h2>Frame by frame</h2>"
+      "<div class='row'>{}{}{}{}</div><h2>Seams and highlights</h2><div class='row'>{}{}</div>{}</html>\n",
+      kStyle, verdict, facts(result), framing(result, data_url(folder, result.preview)),
+      picture(contact_sheet(result.table), "Slices at eight tangent angles, and two cuts along the angle"),
+      chart(result, "Turned", "degrees", [](const CaptureFrame& f) { return degrees(f.turned); }),
+      chart(result, "Exposure", "relative", [](const CaptureFrame& f) { return f.gain.y(); }),
+      chart(result, "Centre across", "pixels", [&](const CaptureFrame& f) { return f.centre.x() - middle.x(); }),
+      chart(result, "Sharpness", "relative", [](const CaptureFrame& f) { return f.sharpness; }),
+      picture(mask_picture(result), "The surface as it lies in the first frame; red: masked"),
+      picture(clipped_picture(result), "Bright: clipped in many frames"), dropped);
+  write_text(folder / "report.html", html);
+}
+
+}  // namespace sateen

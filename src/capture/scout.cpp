@@ -1,0 +1,321 @@
+// SPDX-License-Identifier: MIT
+#include "sateen/capture/scout.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <opencv2/imgproc.hpp>
+
+#include "sateen/core/error.h"
+#include "sateen/core/parallel.h"
+
+namespace sateen {
+
+double GreyPicture::sample(double x, double y) const {
+  const double cx = std::clamp(x - 0.5, 0.0, width - 1.0);
+  const double cy = std::clamp(y - 0.5, 0.0, height - 1.0);
+  const int x0 = static_cast<int>(cx);
+  const int y0 = static_cast<int>(cy);
+  const int x1 = std::min(x0 + 1, width - 1);
+  const int y1 = std::min(y0 + 1, height - 1);
+  const double fx = cx - x0;
+  const double fy = cy - y0;
+  const double top = at(x0, y0) + fx * (at(x1, y0) - at(x0, y0));
+  const double bottom = at(x0, y1) + fx * (at(x1, y1) - at(x0, y1));
+  return top + fy * (bottom - top);
+}
+
+int grey_factor(int width, int height) {
+  return std::max(1, (std::max(width, height) + 1279) / 1280);
+}
+
+GreyPicture grey_picture(const Frame& frame, int factor) {
+  return grey_picture(frame, factor, {0, 0, frame.width() / factor, frame.height() / factor});
+}
+
+GreyPicture grey_picture(const Frame& frame, int factor, const GreyRegion& region) {
+  GreyPicture picture;
+  picture.width = frame.width() / factor;
+  picture.height = frame.height() / factor;
+  picture.codes.resize(static_cast<std::size_t>(picture.width) * static_cast<std::size_t>(picture.height));
+  const float scale = 1.0f / static_cast<float>(factor * factor);
+  for (int y = std::max(0, region.top); y < std::min(picture.height, region.bottom); ++y) {
+    const int first = std::max(0, region.left);
+    std::size_t i = static_cast<std::size_t>(y) * static_cast<std::size_t>(picture.width) + static_cast<std::size_t>(first);
+    for (int x = first; x < std::min(picture.width, region.right); ++x) {
+      float sum = 0;
+      for (int v = 0; v < factor; ++v) {
+        for (int u = 0; u < factor; ++u) sum += frame.grey(x * factor + u, y * factor + v);
+      }
+      const float code = 255 * std::sqrt(std::clamp(sum * scale, 0.0f, 1.0f));
+      picture.codes[i++] = static_cast<std::uint8_t>(code + 0.5f);
+    }
+  }
+  return picture;
+}
+
+namespace {
+
+/// Every 7th pixel of every 7th row: enough for medians over a picture.
+constexpr int kGrid = 7;
+
+/// Gain of each frame's codes against the mean, as the median ratio over a grid, which the background carries.
+std::vector<float> gains(std::span<const GreyPicture> frames, const std::vector<float>& mean) {
+  std::vector<float> result(frames.size(), 1);
+  parallel_for(static_cast<int>(frames.size()), [&](int f) {
+    const GreyPicture& frame = frames[static_cast<std::size_t>(f)];
+    std::vector<float> ratios;
+    for (int y = 0; y < frame.height; y += kGrid) {
+      for (int x = 0; x < frame.width; x += kGrid) {
+        const float m = mean[static_cast<std::size_t>(y * frame.width + x)];
+        const int code = frame.at(x, y);
+        if (m > 20 && m < 245 && code < 250) ratios.push_back(static_cast<float>(code) / m);
+      }
+    }
+    if (ratios.size() < 50) return;
+    const auto middle = ratios.begin() + static_cast<std::ptrdiff_t>(ratios.size() / 2);
+    std::ranges::nth_element(ratios, middle);
+    result[static_cast<std::size_t>(f)] = *middle;
+  });
+  return result;
+}
+
+}  // namespace
+
+namespace {
+
+void measure_activity(std::span<const GreyPicture> frames, Scouting& scouting) {
+  const int width = frames[0].width;
+  const int height = frames[0].height;
+  const std::size_t pixels = frames[0].codes.size();
+  scouting.mean.assign(pixels, 0);
+  scouting.activity.assign(pixels, 0);
+  scouting.gain.assign(frames.size(), 1);
+  for (int round = 0; round < 2; ++round) {
+    if (round > 0) scouting.gain = gains(frames, scouting.mean);
+    parallel_for(height, [&](int y) {
+      for (int x = 0; x < width; ++x) {
+        const auto i = static_cast<std::size_t>(y * width + x);
+        float sum = 0;
+        float squares = 0;
+        for (std::size_t f = 0; f < frames.size(); ++f) {
+          const float v = static_cast<float>(frames[f].codes[i]) / scouting.gain[f];
+          sum += v;
+          squares += v * v;
+        }
+        const auto n = static_cast<float>(frames.size());
+        scouting.mean[i] = sum / n;
+        scouting.activity[i] = std::sqrt(std::max(0.0f, squares / n - sum / n * (sum / n)));
+      }
+    });
+  }
+}
+
+
+struct Circle {
+  Vec2 centre{0, 0};
+  double radius = 0;
+  double support = 0;  ///< share of the directions in which the outline lies on the circle
+};
+
+Circle circle_through(const Vec2& a, const Vec2& b, const Vec2& c) {
+  const Vec2 ab = b - a;
+  const Vec2 ac = c - a;
+  const double cross = 2 * (ab.x() * ac.y() - ab.y() * ac.x());
+  if (std::abs(cross) < 1e-9) return {};
+  const Vec2 offset(ac.y() * ab.squaredNorm() - ab.y() * ac.squaredNorm(),
+                    ab.x() * ac.squaredNorm() - ac.x() * ab.squaredNorm());
+  return {a + offset / cross, (offset / cross).norm(), 0};
+}
+
+/// The circle on which most outline points lie: parts of an outline are hidden by a stand or joined to a moving shadow,
+/// so every circle through three points 1/4 to 1/2 of the way round stands for election.
+Circle vote_circle(const std::vector<Vec2>& outline) {
+  Circle best;
+  const std::size_t n = outline.size();
+  const auto supporters = [&](const Circle& circle) {
+    const double tolerance = std::max(1.5, 0.012 * circle.radius);
+    return static_cast<double>(std::ranges::count_if(outline, [&](const Vec2& p) {
+             return std::abs((p - circle.centre).norm() - circle.radius) < tolerance;
+           })) /
+           static_cast<double>(n);
+  };
+  for (std::size_t start = 0; start < n; start += std::max<std::size_t>(1, n / 60)) {
+    for (std::size_t step = n / 8; step <= n / 3; step += std::max<std::size_t>(1, n / 24)) {
+      Circle circle = circle_through(outline[start], outline[(start + step) % n], outline[(start + 2 * step) % n]);
+      if (circle.radius <= 0) continue;
+      circle.support = supporters(circle);
+      if (circle.support > best.support) best = circle;
+    }
+  }
+  return best;
+}
+
+struct Blob {
+  Circle circle;
+  double area = 0;
+  double filled = 0;  ///< share of the circle's area (inside the picture) that is active
+};
+
+/// The round active areas, largest first.
+std::vector<Blob> active_blobs(const Scouting& s, int width, int height, double threshold) {
+  cv::Mat mask(height, width, CV_8U);
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      mask.at<std::uint8_t>(y, x) = s.activity[static_cast<std::size_t>(y * width + x)] > threshold ? 255 : 0;
+    }
+  }
+  const cv::Mat disc = cv::getStructuringElement(cv::MORPH_ELLIPSE, {5, 5});
+  cv::morphologyEx(mask, mask, cv::MORPH_CLOSE, disc);
+  cv::morphologyEx(mask, mask, cv::MORPH_OPEN, disc);
+  cv::Mat labels;
+  cv::Mat stats;
+  cv::Mat centroids;
+  const int count = cv::connectedComponentsWithStats(mask, labels, stats, centroids);
+  std::vector<Blob> blobs;
+  for (int label = 1; label < count; ++label) {
+    const int left = stats.at<int>(label, cv::CC_STAT_LEFT);
+    const int top = stats.at<int>(label, cv::CC_STAT_TOP);
+    const int w = stats.at<int>(label, cv::CC_STAT_WIDTH);
+    const int h = stats.at<int>(label, cv::CC_STAT_HEIGHT);
+    if (std::max(w, h) < std::max(16, std::min(width, height) / 30)) continue;
+    const Vec2 middle(left + w / 2.0, top + h / 2.0);
+    std::vector<Vec2> outline;
+    for (int i = 0; i < 360; ++i) {
+      const Vec2 out(std::cos(radians(i)), std::sin(radians(i)));
+      for (double r = std::hypot(w, h) / 2 + 1; r > 2; r -= 0.5) {
+        const Vec2 p = middle + r * out;
+        const int x = static_cast<int>(std::floor(p.x()));
+        const int y = static_cast<int>(std::floor(p.y()));
+        if (x < 0 || y < 0 || x >= width || y >= height || labels.at<int>(y, x) != label) continue;
+        // Points on the picture's own edge are where the sphere is cut, not where it ends.
+        if (x > 0 && y > 0 && x < width - 1 && y < height - 1) outline.push_back(p);
+        break;
+      }
+    }
+    if (outline.size() < 60) continue;
+    Blob blob;
+    blob.circle = vote_circle(outline);
+    blob.circle.support *= static_cast<double>(outline.size()) / 360;
+    if (blob.circle.radius < 5 || blob.circle.radius > 2.0 * std::max(width, height)) continue;
+    double inside = 0;
+    double active = 0;
+    for (int y = 0; y < height; ++y) {
+      for (int x = 0; x < width; ++x) {
+        if ((Vec2(x + 0.5, y + 0.5) - blob.circle.centre).norm() > blob.circle.radius) continue;
+        ++inside;
+        active += mask.at<std::uint8_t>(y, x) != 0 ? 1 : 0;
+      }
+    }
+    blob.area = kPi * blob.circle.radius * blob.circle.radius;
+    blob.filled = inside > 0 ? active / inside : 0;
+    blobs.push_back(blob);
+  }
+  std::ranges::sort(blobs, std::greater{}, &Blob::area);
+  return blobs;
+}
+
+/// Translation of the background between two frames by phase correlation of their halves' sizes, pixels.
+double background_motion(const GreyPicture& a, const GreyPicture& b, const Circle& sphere) {
+  const auto prepared = [&](const GreyPicture& picture) {
+    cv::Mat full(picture.height, picture.width, CV_8U, const_cast<std::uint8_t*>(picture.codes.data()));
+    cv::Mat image;
+    cv::resize(full, image, {}, 0.5, 0.5, cv::INTER_AREA);
+    image.convertTo(image, CV_32F);
+    cv::Mat smooth;
+    cv::blur(image, smooth, {31, 31});
+    image -= smooth;
+    // What turns must not vote: it is faded out softly, so that its edge does not vote for standing still.
+    if (sphere.radius > 0) {
+      for (int y = 0; y < image.rows; ++y) {
+        for (int x = 0; x < image.cols; ++x) {
+          const double r = (Vec2(2 * x + 1, 2 * y + 1) - sphere.centre).norm() / sphere.radius;
+          image.at<float>(y, x) *= static_cast<float>(std::clamp((r - 1.1) * 4, 0.0, 1.0));
+        }
+      }
+    }
+    return image;
+  };
+  const cv::Mat first = prepared(a);
+  const cv::Mat second = prepared(b);
+  double response = 0;
+  const cv::Point2d shift = cv::phaseCorrelate(first, second, cv::noArray(), &response);
+  return response > 0.05 ? 2 * std::hypot(shift.x, shift.y) : 0;
+}
+
+void check_camera(std::span<const GreyPicture> frames, const Circle& sphere, Scouting& s) {
+  const std::size_t n = frames.size();
+  std::size_t last_still = 0;
+  for (std::size_t i = 1; i <= 4; ++i) {
+    const std::size_t f = i * (n - 1) / 4;
+    const double moved = background_motion(frames[0], frames[f], sphere);
+    s.moved = std::max(s.moved, moved);
+    if (moved > 1.5) {
+      throw Error(
+          fmt::format("the camera moved by about {:.1f} pixels between {:.0f} % and {:.0f} % of the sequence; fix camera "
+                      "and stand and shoot again",
+                      moved * 1.0, 100.0 * static_cast<double>(last_still) / static_cast<double>(n - 1),
+                      100.0 * static_cast<double>(f) / static_cast<double>(n - 1)));
+    }
+    last_still = f;
+  }
+}
+
+}  // namespace
+
+Scouting find_sphere(std::span<const GreyPicture> frames) {
+  Scouting s;
+  measure_activity(frames, s);
+  const int width = frames[0].width;
+  const int height = frames[0].height;
+
+  std::vector<float> sorted = s.activity;
+  const auto low = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 10);
+  std::ranges::nth_element(sorted, low);
+  s.noise = std::max(0.3, 1.25 * static_cast<double>(*low));
+
+  // A weak turning surface first drowns under a high threshold, a strong one merges with its own moving shadow under a
+  // low one: the threshold with the best circle wins.
+  Blob best;
+  std::vector<Blob> others;
+  for (const double times : {4.0, 7.0, 12.0}) {
+    const std::vector<Blob> blobs = active_blobs(s, width, height, times * s.noise);
+    for (const Blob& blob : blobs) {
+      const bool round = blob.circle.support > 0.4 && blob.filled > 0.35;
+      const double score = blob.circle.support * std::sqrt(blob.area);
+      if (round && score > best.circle.support * std::sqrt(best.area) * 1.02) {
+        best = blob;
+        others = blobs;
+      }
+    }
+  }
+  if (best.area <= 0) {
+    check_camera(frames, {}, s);
+    throw Error(
+        "no sphere found: nothing round changes between the frames. The sphere has to turn while camera, lamps and "
+        "background stand still, and fill at least a twentieth of the picture's height");
+  }
+  check_camera(frames, best.circle, s);
+  for (const Blob& other : others) {
+    const bool apart = (other.circle.centre - best.circle.centre).norm() > other.circle.radius + 0.8 * best.circle.radius;
+    if (apart && other.circle.support > 0.5 && other.filled > 0.5 && other.area > 0.1 * best.area) {
+      throw Error(fmt::format("two turning spheres found, at ({:.0f}, {:.0f}) and ({:.0f}, {:.0f}); cover or crop one",
+                              best.circle.centre.x(), best.circle.centre.y(), other.circle.centre.x(),
+                              other.circle.centre.y()));
+    }
+  }
+  const Vec2& c = best.circle.centre;
+  const double r = best.circle.radius;
+  if (c.x() - r < -1 || c.y() - r < -1 || c.x() + r > width + 1 || c.y() + r > height + 1) {
+    throw Error(fmt::format(
+        "the sphere (centre ({:.0f}, {:.0f}), radius {:.0f} of a picture of {} x {}) is cut by the picture's edge; the "
+        "whole outline has to be visible",
+        c.x(), c.y(), r, width, height));
+  }
+  s.centre = c;
+  s.radius = r;
+  return s;
+}
+
+}  // namespace sateen

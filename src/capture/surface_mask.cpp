@@ -1,0 +1,295 @@
+// SPDX-License-Identifier: MIT
+#include "sateen/capture/surface_mask.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <opencv2/imgproc.hpp>
+
+#include "sateen/core/direction.h"
+#include "sateen/core/parallel.h"
+
+namespace sateen {
+namespace {
+
+constexpr double kNear = 0.06;   // radians: neighbours closer than this may still show the blemish itself
+constexpr double kFar = 0.40;    // radians: beyond, the shading has changed
+constexpr double kSmallest = 0.12;  // log light: below this it is the material's own unevenness
+
+double median(std::vector<float>& values) {
+  const auto half = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::ranges::nth_element(values, half);
+  return static_cast<double>(*half);
+}
+
+/// The light below which a sample is noise: 2 % of the light that 95 % of the samples stay below.
+float dark_floor(const RectifiedStack& stack) {
+  std::vector<float> values;
+  for (std::size_t f = 0; f < stack.frames.size(); f += 4) {
+    const RectifiedFrame& frame = stack.frames[f];
+    for (std::size_t i = 0; i < frame.weight.size(); i += 17) {
+      if (frame.weight[i] > 0) values.push_back(static_cast<float>(frame.rgb[i * 3 + 1]));
+    }
+  }
+  if (values.empty()) return 1e-3f;
+  const auto high = values.begin() + static_cast<std::ptrdiff_t>(values.size() * 95 / 100);
+  std::ranges::nth_element(values, high);
+  return std::max(1e-5f, 0.02f * *high);
+}
+
+constexpr std::int8_t kUnknown = -128;
+
+/// How much each rectified sample differs from the median of the angles around it, natural log, 100 a unit, clamped to
+/// +-1.2; kUnknown in the dark and where too few neighbours are seen. Index (frame * texels + texel) * 3 + channel.
+std::vector<std::int8_t> deviations(const RectifiedStack& stack, const SurfaceMask& already) {
+  const std::size_t frames = stack.frames.size();
+  const std::size_t texels = stack.points.size();
+  const AxisFrame axes(stack.axis);
+  const float dark = dark_floor(stack);
+  std::vector<std::int8_t> result(frames * texels * 3, kUnknown);
+  // The neighbours of a frame along the turn are the same for all texels.
+  std::vector<std::vector<std::size_t>> neighbours(frames);
+  for (std::size_t f = 0; f < frames; ++f) {
+    for (std::size_t g = 0; g < frames; ++g) {
+      const double apart = std::abs(std::remainder(stack.angles[g] - stack.angles[f], 2 * kPi));
+      if (apart > kNear && apart < kFar) neighbours[f].push_back(g);
+    }
+    // A long video has more than a median needs.
+    const std::size_t every = (neighbours[f].size() + 31) / 32;
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < neighbours[f].size(); i += std::max<std::size_t>(1, every)) {
+      neighbours[f][kept++] = neighbours[f][i];
+    }
+    neighbours[f].resize(kept);
+  }
+  parallel_for(stack.size, [&](int row) {
+    std::vector<std::array<float, 3>> light(frames);
+    std::vector<std::uint8_t> usable(frames);
+    std::vector<float> around;
+    for (int x = 0; x < stack.size; ++x) {
+      const auto i = static_cast<std::size_t>(row * stack.size + x);
+      if (!stack.points[i].visible) continue;
+      for (std::size_t f = 0; f < frames; ++f) {
+        const RectifiedFrame& frame = stack.frames[f];
+        usable[f] = frame.weight[i] > 127 ? 1 : 0;
+        if (usable[f] != 0 && already.excludes(body_point(axes, stack.points[i].normal, stack.angles[f]))) usable[f] = 2;
+        for (std::size_t c = 0; c < 3; ++c) {
+          light[f][c] = std::log(std::max(0.0f, static_cast<float>(frame.rgb[i * 3 + c])) + dark);
+        }
+      }
+      const float darkest = std::log(3 * dark);
+      for (std::size_t f = 0; f < frames; ++f) {
+        if (usable[f] == 0) continue;
+        for (std::size_t c = 0; c < 3; ++c) {
+          around.clear();
+          for (const std::size_t g : neighbours[f]) {
+            if (usable[g] == 1) around.push_back(light[g][c]);
+          }
+          if (around.size() < 3) continue;
+          const auto expected = static_cast<float>(median(around));
+          if (expected < darkest) continue;
+          const float deviation = std::clamp(light[f][c] - expected, -1.2f, 1.2f);
+          result[(f * texels + i) * 3 + c] = static_cast<std::int8_t>(std::lround(deviation * 100));
+        }
+      }
+    }
+  });
+  return result;
+}
+
+/// The deviation that nearly all frames agree on at each body pixel, in the channel where it is strongest; 0 where nothing
+/// is known. A highlight crosses a place of the body in some frames, a blemish is there in all.
+std::vector<float> body_deviation(const RectifiedStack& stack, const SurfaceMask& already, int size) {
+  const std::size_t frames = stack.frames.size();
+  const std::size_t texels = stack.points.size();
+  const std::vector<std::int8_t> deviation = deviations(stack, already);
+  // Where on the table a body direction is seen as it turns: through the map from normals across the axis to texels.
+  const AxisFrame axes(stack.axis);
+  std::vector<std::int32_t> texel_of(static_cast<std::size_t>(size) * static_cast<std::size_t>(size) * 4, -1);
+  const int fine = 2 * size;
+  for (std::size_t i = 0; i < texels; ++i) {
+    if (!stack.points[i].visible || stack.points[i].normal.dot(stack.axis) <= 0) continue;
+    const Vec2 p = pixel_of_disc(body_point(axes, stack.points[i].normal, 0), fine);
+    for (int v = -2; v <= 1; ++v) {
+      for (int u = -2; u <= 1; ++u) {
+        const int x = static_cast<int>(std::lround(p.x())) + u;
+        const int y = static_cast<int>(std::lround(p.y())) + v;
+        if (x < 0 || y < 0 || x >= fine || y >= fine) continue;
+        std::int32_t& slot = texel_of[static_cast<std::size_t>(y * fine + x)];
+        const auto distance = [&](std::int32_t t) {
+          return (pixel_of_disc(body_point(axes, stack.points[static_cast<std::size_t>(t)].normal, 0), fine) -
+                  Vec2(x + 0.5, y + 0.5))
+              .squaredNorm();
+        };
+        if (slot < 0 || distance(static_cast<std::int32_t>(i)) < distance(slot)) slot = static_cast<std::int32_t>(i);
+      }
+    }
+  }
+  std::vector<float> result(static_cast<std::size_t>(size) * static_cast<std::size_t>(size), 0);
+  parallel_for(size, [&](int y) {
+    std::vector<float> seen[3];
+    for (int x = 0; x < size; ++x) {
+      const Vec2 disc = disc_of_pixel(x, y, size);
+      if (disc.norm() >= 0.995) continue;
+      for (auto& values : seen) values.clear();
+      for (std::size_t f = 0; f < frames; ++f) {
+        const double c = std::cos(stack.angles[f]);
+        const double s = std::sin(stack.angles[f]);
+        const Vec2 p = pixel_of_disc(Vec2(c * disc.x() - s * disc.y(), s * disc.x() + c * disc.y()), fine);
+        const auto at = static_cast<std::size_t>(std::min(fine - 1, static_cast<int>(p.y())) * fine +
+                                                 std::min(fine - 1, static_cast<int>(p.x())));
+        if (texel_of[at] < 0) continue;
+        for (std::size_t channel = 0; channel < 3; ++channel) {
+          const std::int8_t d = deviation[(f * texels + static_cast<std::size_t>(texel_of[at])) * 3 + channel];
+          if (d != kUnknown) seen[channel].push_back(static_cast<float>(d) / 100);
+        }
+      }
+      float strongest = 0;
+      for (auto& values : seen) {
+        if (values.size() * 4 < frames || values.size() < 6) continue;
+        std::ranges::sort(values);
+        const float middle = values[values.size() / 2];
+        // The quantile on the side of 0 that a quarter of the frames may still fall short of.
+        const float agreed = middle < 0 ? std::min(0.0f, values[values.size() * 3 / 4])
+                                        : std::max(0.0f, values[values.size() / 4]);
+        if (std::abs(agreed) > std::abs(strongest)) strongest = agreed;
+      }
+      result[static_cast<std::size_t>(y * size + x)] = strongest;
+    }
+  });
+  return result;
+}
+
+std::size_t body_pixel(const Vec2& body, int size) {
+  const Vec2 p = pixel_of_disc(body, size);
+  const int x = std::clamp(static_cast<int>(p.x()), 0, size - 1);
+  const int y = std::clamp(static_cast<int>(p.y()), 0, size - 1);
+  return static_cast<std::size_t>(y * size + x);
+}
+
+/// Derives what follows from `masked`.
+void finish(SurfaceMask& mask) {
+  mask.excluded.resize(mask.masked.size());
+  const cv::Mat core(mask.size, mask.size, CV_8U, mask.masked.data());
+  const cv::Mat wider(mask.size, mask.size, CV_8U, mask.excluded.data());
+  cv::dilate(core, wider, cv::getStructuringElement(cv::MORPH_ELLIPSE, {5, 5}));
+  double inside = 0;
+  double masked = 0;
+  for (int y = 0; y < mask.size; ++y) {
+    for (int x = 0; x < mask.size; ++x) {
+      if (disc_of_pixel(x, y, mask.size).norm() > 0.98) continue;
+      ++inside;
+      masked += mask.masked[static_cast<std::size_t>(y * mask.size + x)];
+    }
+  }
+  mask.share = masked / inside;
+}
+
+}  // namespace
+
+bool SurfaceMask::excludes(const Vec2& body) const {
+  return size > 0 && excluded[body_pixel(body, size)] != 0;
+}
+
+bool SurfaceMask::masks(const Vec2& body) const {
+  return size > 0 && masked[body_pixel(body, size)] != 0;
+}
+
+SurfaceMask find_blemishes(const RectifiedStack& stack, const SurfaceMask& already) {
+  SurfaceMask mask;
+  mask.size = stack.size;
+  mask.deviation = body_deviation(stack, already, mask.size);
+
+  mask.masked.assign(mask.deviation.size(), 0);
+  const double high = 2 * kSmallest;
+  const double low = kSmallest;
+
+  // Hysteresis: a blemish has a strong core; its faint border belongs to it.
+  cv::Mat weak(mask.size, mask.size, CV_8U);
+  for (int y = 0; y < mask.size; ++y) {
+    for (int x = 0; x < mask.size; ++x) {
+      weak.at<std::uint8_t>(y, x) =
+          static_cast<double>(std::abs(mask.deviation[static_cast<std::size_t>(y * mask.size + x)])) > low ? 1 : 0;
+    }
+  }
+  cv::Mat labels;
+  const int count = cv::connectedComponents(weak, labels);
+  std::vector<int> core(static_cast<std::size_t>(count), 0);
+  for (int y = 0; y < mask.size; ++y) {
+    for (int x = 0; x < mask.size; ++x) {
+      if (static_cast<double>(std::abs(mask.deviation[static_cast<std::size_t>(y * mask.size + x)])) > high) {
+        ++core[static_cast<std::size_t>(labels.at<int>(y, x))];
+      }
+    }
+  }
+  cv::Mat chosen = cv::Mat::zeros(mask.size, mask.size, CV_8U);
+  for (int y = 0; y < mask.size; ++y) {
+    for (int x = 0; x < mask.size; ++x) {
+      const int label = labels.at<int>(y, x);
+      if (label > 0 && core[static_cast<std::size_t>(label)] >= 4) chosen.at<std::uint8_t>(y, x) = 1;
+    }
+  }
+  for (std::size_t i = 0; i < mask.masked.size(); ++i) {
+    mask.masked[i] = chosen.at<std::uint8_t>(static_cast<int>(i) / mask.size, static_cast<int>(i) % mask.size);
+  }
+  finish(mask);
+  return mask;
+}
+
+SurfaceMask mask_from_painting(const Image& painting, const Camera& camera, const SphereView& sphere, const Vec3& axis,
+                               double angle, int size) {
+  SurfaceMask mask;
+  mask.size = size;
+  mask.masked.assign(static_cast<std::size_t>(size) * static_cast<std::size_t>(size), 0);
+  mask.deviation.assign(mask.masked.size(), 0);
+  const AxisFrame axes(axis);
+  const Mat3 turned = Eigen::AngleAxisd(angle, axis).toRotationMatrix();
+  for (int y = 0; y < size; ++y) {
+    for (int x = 0; x < size; ++x) {
+      const Vec2 disc = disc_of_pixel(x, y, size);
+      if (disc.squaredNorm() >= 1) continue;
+      const Vec3 body = disc.x() * axes.x + disc.y() * axes.y + std::sqrt(1 - disc.squaredNorm()) * axis;
+      const Vec3 normal = turned * body;
+      if (normal.dot(sphere.centre + normal) > 0) continue;
+      const Vec2 p = camera.project(sphere.centre + normal);
+      if (p.x() < 0 || p.y() < 0 || p.x() >= painting.width || p.y() >= painting.height) continue;
+      const Vec3f paint = painting.rgb(static_cast<int>(p.x()), static_cast<int>(p.y()));
+      mask.masked[static_cast<std::size_t>(y * size + x)] = paint.maxCoeff() > 0.2f ? 1 : 0;
+    }
+  }
+  finish(mask);
+  return mask;
+}
+
+SurfaceMask united(const SurfaceMask& a, const SurfaceMask& b) {
+  if (a.size == 0) return b;
+  if (b.size == 0) return a;
+  SurfaceMask mask = a;
+  for (int y = 0; y < a.size; ++y) {
+    for (int x = 0; x < a.size; ++x) {
+      if (b.masks(disc_of_pixel(x, y, a.size))) mask.masked[static_cast<std::size_t>(y * a.size + x)] = 1;
+    }
+  }
+  finish(mask);
+  return mask;
+}
+
+bool mask_direction(const SurfaceMask& mask, double& direction) {
+  // The pole's direction is that of the masked area's axis: each pixel votes with its direction from the middle.
+  Vec2 sum(0, 0);
+  double count = 0;
+  for (int y = 0; y < mask.size; ++y) {
+    for (int x = 0; x < mask.size; ++x) {
+      const Vec2 disc = disc_of_pixel(x, y, mask.size);
+      if (mask.masked[static_cast<std::size_t>(y * mask.size + x)] == 0 || disc.norm() < 0.05) continue;
+      sum += disc.normalized();
+      ++count;
+    }
+  }
+  if (count < 4 || sum.norm() < 0.7 * count) return false;
+  direction = std::atan2(sum.y(), sum.x());
+  return true;
+}
+
+}  // namespace sateen

@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: MIT
+#include "capture/simulator.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include <fmt/format.h>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+
+#include "sateen/core/colour.h"
+#include "sateen/core/direction.h"
+#include "sateen/core/parallel.h"
+
+namespace sateen::test {
+namespace {
+
+/// Evenly distributed in [0, 1), the same for the same cell everywhere.
+double hash(int x, int y, int z, std::uint32_t seed) {
+  auto h = static_cast<std::uint32_t>(x) * 0x9e3779b1u ^ static_cast<std::uint32_t>(y) * 0x85ebca77u ^
+           static_cast<std::uint32_t>(z) * 0xc2b2ae3du ^ seed * 0x27d4eb2fu;
+  h = (h ^ h >> 15) * 0x2c1b3c6du;
+  h = (h ^ h >> 12) * 0x297a2d39u;
+  return (h ^ h >> 15) / 4294967296.0;
+}
+
+/// Trilinear noise in [-1, 1].
+double grain(const Vec3& p, std::uint32_t seed) {
+  const int x = static_cast<int>(std::floor(p.x()));
+  const int y = static_cast<int>(std::floor(p.y()));
+  const int z = static_cast<int>(std::floor(p.z()));
+  double sum = 0;
+  for (int i = 0; i < 8; ++i) {
+    const int dx = i & 1;
+    const int dy = i >> 1 & 1;
+    const int dz = i >> 2;
+    const double w = (dx != 0 ? p.x() - x : 1 - (p.x() - x)) * (dy != 0 ? p.y() - y : 1 - (p.y() - y)) *
+                     (dz != 0 ? p.z() - z : 1 - (p.z() - z));
+    sum += w * (2 * hash(x + dx, y + dy, z + dz, seed) - 1);
+  }
+  return sum;
+}
+
+Vec3 background(double x, double y) {
+  const double wide = grain({x / 60, y / 60, 0}, 1);
+  const double fine = grain({x / 7, y / 7, 0}, 2);
+  const double line = std::fmod(x + 1000 + 20 * std::floor(y / 25), 40) < 2 || std::fmod(y + 1000, 25) < 2 ? 0.15 : 0;
+  const double grey = 0.3 + 0.12 * wide + 0.05 * fine + line;
+  return {grey, grey * 0.9, grey * 0.8};
+}
+
+}  // namespace
+
+Vec3 Simulation::axis() const {
+  const Vec3 to_eye = -sphere_at(camera(), centre, radius).centre.normalized();
+  const Mat3 to_view = eye_frame(to_eye).transpose();
+  return to_view * Vec3(std::sin(radians(tilt.x())), std::sin(radians(tilt.y())), 1).normalized();
+}
+
+double Simulation::angle(int frame) const {
+  while (std::ranges::find(repeated, frame) != repeated.end()) --frame;
+  const double step = radians(turn) / frames;
+  const double jitter = frame == 0 ? 0 : unevenness * (hash(frame, 3, 9, seed) - 0.5);
+  return (clockwise ? -1 : 1) * step * (frame + jitter);
+}
+
+SphereView Simulation::sphere_of(int frame) const {
+  const SphereView mean = sphere_at(camera(), centre, radius);
+  const Vec3 a = axis();
+  // Across the axis: a pixel is 1 / radius of the sphere's radius.
+  const Vec3 x = (Vec3::UnitX() - a * a.x()).normalized();
+  const Vec3 y = a.cross(x);
+  const Vec3 offset = (wobble.x() * x - wobble.y() * y) / radius;
+  return {mean.centre + Eigen::AngleAxisd(angle(frame), a) * offset};
+}
+
+Vec3 Simulation::gain(int frame) const {
+  const double g = 1 + drift * std::sin(0.37 * frame + 1) * std::cos(0.11 * frame);
+  const double c = colour_drift * std::sin(0.2 * frame);
+  return {g * (1 + c), g, g * (1 - c)};
+}
+
+bool Simulation::in_seam(const Vec3& body) const {
+  if (!seam) return false;
+  const Vec3 a = axis();
+  const Vec3 x = (Vec3::UnitX() - a * a.x()).normalized();
+  const double pole = radians(first_angle + 90);
+  const double px = body.dot(x);
+  const double py = body.dot(a.cross(x));
+  const double off = std::remainder(std::atan2(py, px) - pole, 2 * kPi);
+  return std::hypot(px, py) > 0.3 && std::abs(off) < radians(6);
+}
+
+Vec3 Simulation::material(const Vec3& n, const Vec3& t) const {
+  const Vec3 light = Vec3(0.4, 0.6, 0.7).normalized();
+  const Vec3 other = Vec3(-0.7, 0.1, 0.7).normalized();
+  const Vec3 h1 = (light + Vec3::UnitZ()).normalized();
+  const Vec3 h2 = (other + Vec3::UnitZ()).normalized();
+  const Vec3 b = n.cross(t);
+  const double warp = std::exp(-std::pow(t.dot(h1) / 0.3, 2)) * std::max(0.0, n.dot(light));
+  const double weft = std::exp(-std::pow(b.dot(h2) / 0.35, 2)) * std::max(0.0, n.dot(other));
+  const double diffuse = 0.5 * (1 + n.dot(light));
+  return exposure * (Vec3(0.14, 0.08, 0.12) * (0.4 + diffuse) + Vec3(0.5, 0.3, 0.12) * warp + Vec3(0.1, 0.3, 0.45) * weft);
+}
+
+Picture8 Simulation::render(int frame) const {
+  const Camera lens = camera();
+  const SphereView ball = sphere_of(frame);
+  const Vec3 a = axis();
+  const Eigen::AngleAxisd turned(angle(frame), a);
+  const Mat3 to_body = turned.toRotationMatrix().transpose();
+  const Vec3 x_axis = (Vec3::UnitX() - a * a.x()).normalized();
+  const Vec3 y_axis = a.cross(x_axis);
+  const double pole_angle = radians(first_angle + 90) + angle(frame);
+  const Vec3 pole = std::cos(pole_angle) * x_axis + std::sin(pole_angle) * y_axis;
+  const Vec2 move = frame * 2 >= frames ? camera_move : Vec2(0, 0);
+  const SphereView twin = sphere_at(lens, Vec2(centre.x() - 2.3 * radius, centre.y()), radius * 0.8);
+  const Vec2 seen_centre = ball.centre_pixel(lens);
+  const Vec2 twin_centre = twin.centre_pixel(lens);
+
+  const auto light_at = [&](const Vec2& at) -> Vec3 {
+    const Vec2 pixel = at - move;
+    Vec3 n;
+    const bool near_ball = sphere && (pixel - seen_centre).norm() < 1.2 * radius;
+    const bool near_twin = second_sphere && (pixel - twin_centre).norm() < radius;
+    if ((near_ball && normal_at_pixel(lens, ball, pixel, n)) || (near_twin && normal_at_pixel(lens, twin, pixel, n))) {
+      const Vec3 body = to_body * n;
+      if (in_seam(body)) return {0.012, 0.012, 0.012};
+      const Vec3 position = ball.centre + n;
+      const Vec3 to_eye = -position.normalized();
+      const Mat3 eye = eye_frame(to_eye);
+      // Lamps at a finite distance see each point from another side: as if the normal leaned towards the middle.
+      const Vec3 lit = (n - Vec3(0.4, 0.6, 0.7) * (n.dot(Vec3(0.4, 0.6, 0.7)) - 1) / lamp_distance).normalized();
+      const Vec3 tangent = pole.cross(lit).normalized();
+      const double rough = 1 + texture * (grain(body * radius / 2.2, 11) + grain(body * radius / 5.0, 12));
+      return material(eye * lit, eye * tangent) * rough;
+    }
+    if (stand && std::abs(pixel.x() - centre.x()) < 9 && pixel.y() > centre.y()) return {0.5, 0.5, 0.52};
+    return background(pixel.x(), pixel.y());
+  };
+
+  cv::Mat image(height, width, CV_32FC3);
+  parallel_for(height, [&](int y) {
+    for (int x = 0; x < width; ++x) {
+      Vec3 sum(0, 0, 0);
+      const Vec2 p(x + 0.5, y + 0.5);
+      const double from_centre = (p - move - seen_centre).norm();
+      const bool fine = from_centre < 1.06 * radius || (second_sphere && (p - move - twin_centre).norm() < radius);
+      const int n = fine ? (std::abs(from_centre - radius) < 3 ? 4 : 2) : 1;
+      for (int v = 0; v < n; ++v) {
+        for (int u = 0; u < n; ++u) sum += light_at({x + (u + 0.5) / n, y + (v + 0.5) / n});
+      }
+      sum /= n * n;
+      image.at<cv::Vec3f>(y, x) = {static_cast<float>(sum.x()), static_cast<float>(sum.y()), static_cast<float>(sum.z())};
+    }
+  });
+  const bool shake = std::ranges::find(shaken, frame) != shaken.end();
+  const double sigma = std::hypot(blur, shake ? 4.0 : 0.0);
+  if (sigma > 0) cv::GaussianBlur(image, image, {}, sigma);
+
+  std::mt19937 random(seed * 1000003u + static_cast<std::uint32_t>(frame));
+  std::normal_distribution<double> sensor(0, 1);
+  const Vec3 exposed = gain(frame);
+  Picture8 picture;
+  picture.width = width;
+  picture.height = height;
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      for (int c = 0; c < 3; ++c) {
+        const double light = static_cast<double>(image.at<cv::Vec3f>(y, x)[c]) * exposed[c];
+        double code = 255 * static_cast<double>(srgb_encode(static_cast<float>(light)));
+        code += noise * sensor(random);
+        picture.rgb.push_back(static_cast<std::uint8_t>(std::clamp(code + 0.5, 0.0, 255.0)));
+      }
+    }
+  }
+  return picture;
+}
+
+void Simulation::write(const std::filesystem::path& folder) const {
+  for (int i = 0; i < frames; ++i) {
+    Picture8 picture = render(i);
+    cv::Mat rgb(height, width, CV_8UC3, picture.rgb.data());
+    cv::Mat bgr;
+    cv::cvtColor(rgb, bgr, cv::COLOR_RGB2BGR);
+    cv::imwrite((folder / fmt::format("frame_{:03}.png", i)).string(), bgr, {cv::IMWRITE_PNG_COMPRESSION, 1});
+  }
+}
+
+double table_psnr(const AmcTable& table, const Simulation& truth, const std::vector<std::uint8_t>& seen) {
+  double squares = 0;
+  double count = 0;
+  for (int f = 0; f < table.slices; f += 3) {
+    const double k = 2 * kPi * table.slice_angle(f);
+    const Image slice = slice_image(table, f);
+    for (int y = 0; y < table.size; ++y) {
+      for (int x = 0; x < table.size; ++x) {
+        const Vec2 disc = disc_of_pixel(x, y, table.size);
+        if (disc.norm() > 0.97) continue;
+        const auto at = static_cast<std::size_t>((f * table.size + y) * table.size + x);
+        if (!seen.empty() && seen[at] != 1) continue;
+        const Vec3 n = normal_on_disc(disc);
+        // The unit tangent across n whose picture-plane direction is k.
+        const Vec2 d(std::cos(k), std::sin(k));
+        const Vec3 t = Vec3(d.x(), d.y(), -n.head<2>().dot(d) / n.z()).normalized();
+        const Vec3 wanted = truth.material(n, t);
+        squares += (slice.rgb(x, y).cast<double>() - wanted).squaredNorm();
+        count += 3;
+      }
+    }
+  }
+  return -10 * std::log10(squares / count);
+}
+
+}  // namespace sateen::test
