@@ -13,5 +13,7 @@ find_package(PkgConfig REQUIRED)
 # OpenImageIO's own CMake config needs the tools package; pkg-config does not.
 pkg_check_modules(OIIO REQUIRED IMPORTED_TARGET OpenImageIO)
 pkg_check_modules(ZSTD REQUIRED IMPORTED_TARGET libzstd)
+# Its pkg-config file in Debian names paths that do not exist.
+find_library(SQUISH_LIBRARY squish REQUIRED)
 pkg_check_modules(EPOXY REQUIRED IMPORTED_TARGET epoxy)
 pkg_check_modules(EGL REQUIRED IMPORTED_TARGET egl)

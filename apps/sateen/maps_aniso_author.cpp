@@ -25,7 +25,8 @@ MapInput angle_input(const std::string& text) {
 }
 
 void refuse(const Arguments& a, bool uv) {
-  const bool uv_given = !a.roughness_u.empty() || !a.roughness_v.empty() || !a.gloss_u.empty() || !a.gloss_v.empty();
+  const bool uv_given =
+      !a.roughness_u.empty() || !a.roughness_v.empty() || !a.gloss_u.empty() || !a.gloss_v.empty();
   const bool other_given = !a.roughness.empty() || !a.amount.empty();
   if (uv && other_given) {
     throw CLI::ValidationError("--roughness and --anisotropy go with --style gltf, blender or substance");
@@ -60,7 +61,8 @@ void run(const Arguments& a) {
   if (!a.rotation.empty()) in.rotation = angle_input(a.rotation);
   in.turns_at_one = a.angle_range / 360;
   in.vectors = a.vectors;
-  author_anisotropy(in, a.output, anisotropy_encoding_from_name(a.encoding), a.bits, progress_bar("authoring"));
+  author_anisotropy(in, a.output, anisotropy_encoding_from_name(a.encoding), a.bits,
+                    progress_bar("authoring"));
 }
 
 }  // namespace
@@ -70,22 +72,26 @@ void add_maps_aniso_author(CLI::App& parent) {
   CLI::App* command = add_command(
       parent, "author", "Make an anisotropy map from roughness and direction maps",
       "sateen maps aniso author --roughness-u 0.6 --roughness-v 0.3 --rotation 30 -o aniso.png\n\n"
-      "Inputs are a value or a picture, with :r, :g, :b or :a for its channel (metal.png:g). Pictures are data,\n"
+      "Inputs are a value or a picture, with :r, :g, :b or :a for its channel (metal.png:g). Pictures are "
+      "data,\n"
       "never sRGB, and of one size. alpha = roughness^2; gloss = 1 - roughness; V and angles run up.");
   command->add_option("-o,--output", a->output, "The anisotropy map: .png or .exr")->required();
   command->add_option("--style", a->style, "Whose meaning the inputs have")
       ->check(CLI::IsMember({"uv", "gltf", "blender", "substance"}));
-  command->add_option("--roughness-u", a->roughness_u, "uv: roughness along U (along the rotated axis) [0, 1]");
+  command->add_option("--roughness-u", a->roughness_u,
+                      "uv: roughness along U (along the rotated axis) [0, 1]");
   command->add_option("--roughness-v", a->roughness_v, "uv: roughness along V (across it) [0, 1]");
   command->add_option("--gloss-u", a->gloss_u, "uv: gloss instead [0, 1]");
   command->add_option("--gloss-v", a->gloss_v, "uv: gloss instead [0, 1]");
   command->add_option("--roughness", a->roughness, "gltf, blender, substance: roughness [0, 1]");
-  command->add_option("--anisotropy", a->amount, "glTF strength, Blender's anisotropic, Substance's level [0, 1]");
+  command->add_option("--anisotropy", a->amount,
+                      "glTF strength, Blender's anisotropic, Substance's level [0, 1]");
   command->add_option("--rotation", a->rotation,
                       "Angle from U towards V: degrees, or a map whose 1 is --angle-range");
   command->add_option("--angle-range", a->angle_range, "Degrees that a value of 1 in an angle map means");
-  command->add_option("--vectors", a->vectors,
-                      "Direction map, red and green x/2 + 1/2, y/2 + 1/2; the glTF texture with --style gltf");
+  command->add_option(
+      "--vectors", a->vectors,
+      "Direction map, red and green x/2 + 1/2, y/2 + 1/2; the glTF texture with --style gltf");
   command->add_option("--encoding", a->encoding, "Encoding of the map")
       ->check(CLI::IsMember({"root", "correlation"}));
   command->add_option("--bits", a->bits, "Of a PNG")->check(CLI::IsMember({8, 16}));

@@ -69,9 +69,12 @@ void run(Arguments a) {
 
   LobeOutput output;
   output.kind = kind_of(a);
-  output.encoding = a.output_encoding.empty() ? a.files.encoding : anisotropy_encoding_from_name(a.output_encoding);
+  output.encoding =
+      a.output_encoding.empty() ? a.files.encoding : anisotropy_encoding_from_name(a.output_encoding);
   output.green_down = a.green_down;
-  output.effort = a.effort == "fast" ? Bc7Effort::fast : a.effort == "best" ? Bc7Effort::best : Bc7Effort::normal;
+  output.effort = a.effort == "fast"   ? Bc7Effort::fast
+                  : a.effort == "best" ? Bc7Effort::best
+                                       : Bc7Effort::normal;
   output.zstd_level = a.zstd;
   const auto written = write_lobe_chain(source, a.output, chain, output, progress_bar("filtering"));
 
@@ -93,20 +96,24 @@ void run(Arguments a) {
 
 void add_maps_aniso_filter(CLI::App& parent) {
   auto a = std::make_shared<Arguments>();
-  CLI::App* command = add_command(
-      parent, "filter", "Make the mip chains of a normal map and an anisotropy map together",
-      "sateen maps aniso filter --normals examples/textures/weave_normal.png --constant 0.5 0.25 -o weave.ktx2\n\n"
-      "Writes NAME_normal and NAME_aniso: one .ktx2 each with all levels, or NAME_normal_0.png, ... a level.");
+  CLI::App* command =
+      add_command(parent, "filter", "Make the mip chains of a normal map and an anisotropy map together",
+                  "sateen maps aniso filter --normals examples/textures/weave_normal.png --constant 0.5 0.25 "
+                  "-o weave.ktx2\n\n"
+                  "Writes NAME_normal and NAME_aniso: one .ktx2 each with all levels, or NAME_normal_0.png, "
+                  "... a level.");
   command->add_option("--normals", a->files.normals, "Tangent-space normal map; flat when left out");
   command->add_option("--aniso", a->files.anisotropy, "Anisotropy map as `author` makes it");
-  command->add_option("--roughness", a->files.roughness, "Instead: an isotropic roughness map (first channel)");
+  command->add_option("--roughness", a->files.roughness,
+                      "Instead: an isotropic roughness map (first channel)");
   command->add_option("--constant", a->roughness_values, "Instead: roughness along U and along V [0, 1]")
       ->expected(1, 2)
       ->check(CLI::Range(0.0, 1.0));
   command->add_option("-o,--output", a->output, "NAME.ktx2, NAME.png or NAME.exr")->required();
   command->add_option("--method", a->method, "How lobes are averaged")
       ->check(CLI::IsMember({"sggx-variance", "sggx", "lean", "naive"}));
-  command->add_flag("--power-iteration", a->power_iteration, "sggx methods: the slides' solver for the normal");
+  command->add_flag("--power-iteration", a->power_iteration,
+                    "sggx methods: the slides' solver for the normal");
   command->add_flag("--isotropic", a->isotropic, "Make every lobe isotropic, for engines without anisotropy");
   command->add_option("--kernel", a->kernel, "Filter kernel")->check(CLI::IsMember({"box", "kaiser"}));
   const auto wraps = CLI::IsMember({"repeat", "clamp", "mirror"});
@@ -114,7 +121,8 @@ void add_maps_aniso_filter(CLI::App& parent) {
   command->add_option("--wrap-u", a->wrap_u, "The same along U only")->check(wraps);
   command->add_option("--wrap-v", a->wrap_v, "The same along V only")->check(wraps);
   command->add_option("--levels", a->levels, "Mip levels; 0: down to 1 x 1")->check(CLI::Range(0, 32));
-  command->add_flag("--green-down", a->green_down, "The normal map is Direct3D style, here and in the output");
+  command->add_flag("--green-down", a->green_down,
+                    "The normal map is Direct3D style, here and in the output");
   command->add_option("--normal-values", a->normal_values, "unsigned: n/2 + 1/2 is stored; signed: n (EXR)")
       ->check(CLI::IsMember({"unsigned", "signed"}));
   command->add_option("--encoding", a->encoding, "Encoding of the anisotropy map")

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
-// What texture interpolation and 8 bits or BC7 do to the encodings of anisotropy maps. Four neighbouring lobes, encoded,
-// are interpolated at a random place between them; the decoded lobe's radiance is compared with the weighted mean of
-// the four lobes' (as in aniso_filter_error). Compared are the encodings of the library, and for reference the matrix
-// itself, its fourth root and its Cholesky factor, which fit the same three channels. Then the alphas that come back
-// from 8 bits, and from BC7 blocks of a map with turning directions.
+// What texture interpolation and 8 bits or BC7 do to the encodings of anisotropy maps. Four neighbouring
+// lobes, encoded, are interpolated at a random place between them; the decoded lobe's radiance is compared
+// with the weighted mean of the four lobes' (as in aniso_filter_error). Compared are the encodings of the
+// library, and for reference the matrix itself, its fourth root and its Cholesky factor, which fit the same
+// three channels. Then the alphas that come back from 8 bits, and from BC7 blocks of a map with turning
+// directions.
 #include <array>
 #include <functional>
 #include <random>
@@ -46,7 +47,8 @@ std::vector<Encoding> encodings() {
                     [e](const Mat2& s) { return encode_anisotropy(s, e); },
                     [e](const Vec3& c) { return decode_anisotropy(c, e); }};
   };
-  return {library(AnisotropyEncoding::correlation), library(AnisotropyEncoding::root),
+  return {library(AnisotropyEncoding::correlation),
+          library(AnisotropyEncoding::root),
           {"matrix", channels_of, matrix_of},
           {"fourth root", [](const Mat2& s) { return channels_of(root_of(root_of(s))); },
            [](const Vec3& c) {
@@ -74,7 +76,8 @@ Vec3 quantised(const Vec3& c) {
 enum class Scene { smooth, warp_and_weft, random };
 
 /// Relative radiance error of each encoding, and last of interpolating the matrix without quantisation.
-std::vector<double> interpolation_errors(const std::vector<Encoding>& all, const AnisotropicAlpha& lobe, Scene scene) {
+std::vector<double> interpolation_errors(const std::vector<Encoding>& all, const AnisotropicRoughness& lobe,
+                                         Scene scene) {
   std::mt19937 generator(1);
   const auto uniform = [&] { return std::uniform_real_distribution<double>(0, 1)(generator); };
   std::vector<double> squared(all.size() + 1);
@@ -83,9 +86,11 @@ std::vector<double> interpolation_errors(const std::vector<Encoding>& all, const
     const double base = uniform() * kPi;
     std::array<LobeTexel, 4> corner;
     for (int j = 0; j < 4; ++j) {
-      AnisotropicAlpha a = lobe;
-      a.angle = scene == Scene::smooth ? base + (uniform() - 0.5) * 0.5 : scene == Scene::random ? uniform() * kPi : base + (j % 2) * kPi / 2;
-      corner[static_cast<std::size_t>(j)].s = ggx_matrix(a);
+      AnisotropicRoughness a = lobe;
+      a.azimuth = scene == Scene::smooth   ? base + (uniform() - 0.5) * 0.5
+                : scene == Scene::random ? uniform() * kPi
+                                         : base + (j % 2) * kPi / 2;
+      corner[static_cast<std::size_t>(j)].s = roughness_matrix(a);
     }
     const double u = uniform();
     const double v = uniform();
@@ -101,7 +106,8 @@ std::vector<double> interpolation_errors(const std::vector<Encoding>& all, const
     }
     for (int i = 0; i < 48; ++i) {
       const double sine = std::sqrt(0.98 * (i + 0.5) / 48);
-      const Vec3 light(sine * std::cos(2.399963 * i), sine * std::sin(2.399963 * i), std::sqrt(1 - sine * sine));
+      const Vec3 light(sine * std::cos(2.399963 * i), sine * std::sin(2.399963 * i),
+                       std::sqrt(1 - sine * sine));
       for (const double tilt : {0.0, 0.5, 1.0}) {
         const Vec3 view(std::sin(tilt) * std::cos(i), std::sin(tilt) * std::sin(i), std::cos(tilt));
         double truth = 0;
@@ -118,27 +124,29 @@ std::vector<double> interpolation_errors(const std::vector<Encoding>& all, const
 }
 
 /// Mean relative error of both alphas of a map whose direction turns, after 8 bits, or after BC7.
-double alpha_error(const Encoding& encoding, const AnisotropicAlpha& lobe, bool blocks) {
+double alpha_error(const Encoding& encoding, const AnisotropicRoughness& lobe, bool blocks) {
   constexpr int kSize = 128;
   std::vector<std::uint8_t> rgba;
-  std::vector<AnisotropicAlpha> truth;
+  std::vector<AnisotropicRoughness> truth;
   for (int y = 0; y < kSize; ++y) {
     for (int x = 0; x < kSize; ++x) {
-      truth.push_back({lobe.t, lobe.b, 0.03 * x + 0.5 * std::sin(0.05 * y)});
-      const Vec3 c = quantised(encoding.encode(ggx_matrix(truth.back())));
+      truth.push_back({lobe.alpha_t, lobe.alpha_b, 0.03 * x + 0.5 * std::sin(0.05 * y)});
+      const Vec3 c = quantised(encoding.encode(roughness_matrix(truth.back())));
       for (int k = 0; k < 3; ++k) rgba.push_back(static_cast<std::uint8_t>(std::lround(c[k] * 255)));
       rgba.push_back(255);
     }
   }
   if (blocks) {
     const auto dds = std::filesystem::temp_directory_path() / "sateen_aniso_encoding_error.dds";
-    rgba = test::decode_blocks(BlockFormat::bc7, compress_blocks(BlockFormat::bc7, rgba, kSize, kSize), kSize, kSize, dds);
+    rgba = test::decode_blocks(BlockFormat::bc7, compress_blocks(BlockFormat::bc7, rgba, kSize, kSize), kSize,
+                               kSize, dds);
     std::filesystem::remove(dds);
   }
   double error = 0;
   for (std::size_t i = 0; i < truth.size(); ++i) {
-    const AnisotropicAlpha back = ggx_alphas(encoding.decode(Vec3(rgba[i * 4], rgba[i * 4 + 1], rgba[i * 4 + 2]) / 255));
-    error += (std::abs(back.t / lobe.t - 1) + std::abs(back.b / lobe.b - 1)) / 2;
+    const AnisotropicRoughness back =
+        roughness_from_matrix(encoding.decode(Vec3(rgba[i * 4], rgba[i * 4 + 1], rgba[i * 4 + 2]) / 255));
+    error += (std::abs(back.alpha_t / lobe.alpha_t - 1) + std::abs(back.alpha_b / lobe.alpha_b - 1)) / 2;
   }
   return error / static_cast<double>(truth.size());
 }
@@ -147,7 +155,8 @@ double alpha_error(const Encoding& encoding, const AnisotropicAlpha& lobe, bool 
 
 int main() {
   const std::vector<Encoding> all = encodings();
-  const std::array<AnisotropicAlpha, 4> lobes{{{0.3, 0.1, 0}, {0.29, 0.04, 0}, {0.87, 0.1, 0}, {0.87, 0.04, 0}}};
+  const std::array<AnisotropicRoughness, 4> lobes{
+      {{0.3, 0.1, 0}, {0.29, 0.04, 0}, {0.87, 0.1, 0}, {0.87, 0.04, 0}}};
   fmt::print("{:44}", "");
   for (const Encoding& e : all) fmt::print("{:>13}", e.name);
   fmt::print("{:>13}\n", "exact matrix");
@@ -156,17 +165,18 @@ int main() {
     for (const double v : values) fmt::print("{:13.3f}", v);
     fmt::print("\n");
   };
-  for (const auto& [scene, name] : {std::pair{Scene::smooth, "angles within 14 degrees"}, std::pair{Scene::warp_and_weft, "warp beside weft"},
-                                    std::pair{Scene::random, "random angles"}}) {
-    for (const AnisotropicAlpha& lobe : lobes) {
-      row(fmt::format("{}, {} and {}", name, lobe.t, lobe.b), interpolation_errors(all, lobe, scene));
+  for (const auto& [scene, name] :
+       {std::pair{Scene::smooth, "angles within 14 degrees"},
+        std::pair{Scene::warp_and_weft, "warp beside weft"}, std::pair{Scene::random, "random angles"}}) {
+    for (const AnisotropicRoughness& lobe : lobes) {
+      row(fmt::format("{}, {} and {}", name, lobe.alpha_t, lobe.alpha_b), interpolation_errors(all, lobe, scene));
     }
   }
   for (const bool blocks : {false, true}) {
-    for (const AnisotropicAlpha& lobe : lobes) {
+    for (const AnisotropicRoughness& lobe : lobes) {
       std::vector<double> errors;
       for (const Encoding& e : all) errors.push_back(alpha_error(e, lobe, blocks));
-      row(fmt::format("alphas {} and {} after {}", lobe.t, lobe.b, blocks ? "BC7" : "8 bits"), errors);
+      row(fmt::format("alphas {} and {} after {}", lobe.alpha_t, lobe.alpha_b, blocks ? "BC7" : "8 bits"), errors);
     }
   }
 }

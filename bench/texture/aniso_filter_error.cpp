@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // How well each filter method stands for the averaged lobes: aniso_filter_error NORMALMAP...
-// For mips 1 to 6 of every map, blocks of the map under constant lobes are filtered with each method; the filtered
-// lobe's radiance is compared with the mean over the block's texels, each with its own lobe, for 48 lights and three
-// views each. Printed: sqrt(sum of squared differences / sum of squared means), averaged over mips (and maps).
-// Normal maps hold n / 2 + 1/2, green up.
+// For mips 1 to 6 of every map, blocks of the map under constant lobes are filtered with each method; the
+// filtered lobe's radiance is compared with the mean over the block's texels, each with its own lobe, for 48
+// lights and three views each. Printed: sqrt(sum of squared differences / sum of squared means), averaged
+// over mips (and maps). Normal maps hold n / 2 + 1/2, green up.
 #include <array>
 #include <filesystem>
 #include <random>
@@ -30,12 +30,14 @@ const std::array<Method, 6> kMethods{
     {{"naive", {FilterMethod::naive, NormalSolver::eigen, AnisotropyEncoding::correlation, false}},
      {"lean", {FilterMethod::lean, NormalSolver::eigen, AnisotropyEncoding::root, false}},
      {"sggx", {FilterMethod::sggx, NormalSolver::eigen, AnisotropyEncoding::root, false}},
-     {"sggx, power it.", {FilterMethod::sggx, NormalSolver::power_iteration, AnisotropyEncoding::root, false}},
+     {"sggx, power it.",
+      {FilterMethod::sggx, NormalSolver::power_iteration, AnisotropyEncoding::root, false}},
      {"sggx-variance", {FilterMethod::sggx_variance, NormalSolver::eigen, AnisotropyEncoding::root, false}},
      {"... isotropic", {FilterMethod::sggx_variance, NormalSolver::eigen, AnisotropyEncoding::root, true}}}};
 
 // The slides' well-behaved pair and its neighbours, then the two pairs they call a limit.
-constexpr std::array<std::array<double, 2>, 5> kLobes{{{0.29, 0.04}, {0.2, 0.05}, {0.1, 0.1}, {0.87, 0.04}, {0.87, 0.1}}};
+constexpr std::array<std::array<double, 2>, 5> kLobes{
+    {{0.29, 0.04}, {0.2, 0.05}, {0.1, 0.1}, {0.87, 0.04}, {0.87, 0.1}}};
 constexpr int kBlocks = 12;
 constexpr int kMips = 6;
 
@@ -85,7 +87,7 @@ LobeTexel filtered(const std::vector<LobeTexel>& texels, const FilterOptions& op
   return unpack_moments(mean, options);
 }
 
-Errors measure(const Image& map, const AnisotropicAlpha& lobe) {
+Errors measure(const Image& map, const AnisotropicRoughness& lobe) {
   static const std::vector<Directions> kDirections = directions();
   Errors mean{};
   for (int mip = 1; mip <= kMips; ++mip) {
@@ -96,7 +98,7 @@ Errors measure(const Image& map, const AnisotropicAlpha& lobe) {
     for (int block = 0; block < kBlocks; ++block) {
       const int x = static_cast<int>(generator() % static_cast<unsigned>(map.width / size)) * size;
       const int y = static_cast<int>(generator() % static_cast<unsigned>(map.height / size)) * size;
-      const auto texels = texels_of(map, x, y, size, ggx_matrix(lobe));
+      const auto texels = texels_of(map, x, y, size, roughness_matrix(lobe));
       std::array<LobeTexel, kMethods.size()> results;
       for (std::size_t m = 0; m < kMethods.size(); ++m) results[m] = filtered(texels, kMethods[m].options);
       for (const auto& [light, view] : kDirections) {

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "sateen/core/error.h"
+#include "sateen/io/file.h"
 
 namespace sateen {
 namespace {
@@ -20,6 +21,8 @@ namespace {
 }  // namespace
 
 struct ImageRowReader::File {
+  // A JPEG is decoded whole: only read_data notices what libjpeg quietly fills with grey.
+  Image whole;
   std::unique_ptr<OIIO::ImageInput> input;
   // Of tiled files a whole row of tiles is decoded at once: rows [first, first + count).
   std::vector<float> tiles;
@@ -30,6 +33,13 @@ struct ImageRowReader::File {
 ImageRowReader::ImageRowReader(const std::filesystem::path& path)
     : path_(path), info_(read_image_info(path)), file_(std::make_unique<File>()) {
   info_.channels = std::min(info_.channels, 4);
+  if (const std::string extension = extension_of(path); extension == ".jpg" || extension == ".jpeg") {
+    file_->whole = read_data(path);
+    info_.width = file_->whole.width;
+    info_.height = file_->whole.height;
+    info_.channels = file_->whole.channels;
+    return;
+  }
   OIIO::ImageSpec wishes;
   wishes["oiio:UnassociatedAlpha"] = 1;
   file_->input = OIIO::ImageInput::open(path.string(), &wishes);
@@ -44,21 +54,28 @@ ImageRowReader::~ImageRowReader() = default;
 void ImageRowReader::read(std::span<float> out) {
   const std::size_t row = static_cast<std::size_t>(width()) * static_cast<std::size_t>(channels());
   const int count = static_cast<int>(out.size() / row);
+  if (!file_->whole.empty()) {
+    std::copy_n(file_->whole.data.begin() + static_cast<std::ptrdiff_t>(row) * next_, out.size(),
+                out.begin());
+    next_ += count;
+    return;
+  }
   OIIO::ImageInput& input = *file_->input;
   const OIIO::ImageSpec& spec = input.spec();
   const auto check = [&](bool fine) {
     if (!fine) fail(path_, "is truncated or corrupt: " + input.geterror());
   };
   if (spec.tile_width == 0) {
-    check(input.read_scanlines(0, 0, next_, next_ + count, 0, 0, channels(), OIIO::TypeDesc::FLOAT, out.data()));
+    check(input.read_scanlines(0, 0, next_, next_ + count, 0, 0, channels(), OIIO::TypeDesc::FLOAT,
+                               out.data()));
   } else {
     for (int y = next_; y < next_ + count; ++y) {
       if (y >= file_->first + file_->count) {
         file_->first = y - y % spec.tile_height;
         file_->count = std::min(spec.tile_height, height() - file_->first);
         file_->tiles.resize(row * static_cast<std::size_t>(file_->count));
-        check(input.read_tiles(0, 0, 0, width(), file_->first, file_->first + file_->count, 0, 1, 0, channels(),
-                               OIIO::TypeDesc::FLOAT, file_->tiles.data()));
+        check(input.read_tiles(0, 0, 0, width(), file_->first, file_->first + file_->count, 0, 1, 0,
+                               channels(), OIIO::TypeDesc::FLOAT, file_->tiles.data()));
       }
       std::copy_n(file_->tiles.begin() + static_cast<std::ptrdiff_t>(row) * (y - file_->first), row,
                   out.begin() + static_cast<std::ptrdiff_t>(row) * (y - next_));
@@ -80,8 +97,8 @@ struct ImageRowWriter::File {
   std::unique_ptr<OIIO::ImageOutput> output;
 };
 
-ImageRowWriter::ImageRowWriter(const std::filesystem::path& file, const std::filesystem::path& name, int width,
-                               int height, int channels, RowSamples samples)
+ImageRowWriter::ImageRowWriter(const std::filesystem::path& file, const std::filesystem::path& name,
+                               int width, int height, int channels, RowSamples samples)
     : name_(name), width_(width), channels_(channels), file_(std::make_unique<File>()) {
   static const OIIO::TypeDesc kTypes[] = {OIIO::TypeDesc::UINT8, OIIO::TypeDesc::UINT16, OIIO::TypeDesc::HALF,
                                           OIIO::TypeDesc::FLOAT};
@@ -90,7 +107,8 @@ ImageRowWriter::ImageRowWriter(const std::filesystem::path& file, const std::fil
   spec["Software"] = "Sateen";
   file_->output = OIIO::ImageOutput::create(file.string());
   if (!file_->output) fail(name, "unknown picture type");
-  if (!file_->output->open(file.string(), spec)) fail(name, "cannot be written: " + file_->output->geterror());
+  if (!file_->output->open(file.string(), spec))
+    fail(name, "cannot be written: " + file_->output->geterror());
 }
 
 ImageRowWriter::~ImageRowWriter() = default;

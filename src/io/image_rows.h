@@ -9,11 +9,13 @@
 
 namespace sateen {
 
-/// Reads a data picture from top to bottom, a few rows at a time, so that pictures larger than memory can be worked
-/// on. Values as read_data gives them: integers scaled to [0, 1], no colour conversion.
+/// Reads a data picture from top to bottom, a few rows at a time, so that pictures larger than memory can be
+/// worked on; a JPEG is held whole. Values as read_data gives them: integers scaled to [0, 1], no colour
+/// conversion.
 class ImageRowReader {
  public:
-  /// Throws Error as read_image_info does, and for a picture its EXIF data turn (rows then are no rows of the file).
+  /// Throws Error as read_image_info does, and for a picture its EXIF data turn (rows then are no rows of the
+  /// file).
   explicit ImageRowReader(const std::filesystem::path& path);
   ~ImageRowReader();
   ImageRowReader(const ImageRowReader&) = delete;
@@ -25,7 +27,8 @@ class ImageRowReader {
   int channels() const { return info_.channels; }  ///< 1 to 4: of more, the first four are read
   const ImageInfo& info() const { return info_; }
 
-  /// The next out.size() / (width * channels) rows. Throws Error when the file is truncated or a value is not finite.
+  /// The next out.size() / (width * channels) rows. Throws Error when the file is truncated or a value is not
+  /// finite.
   void read(std::span<float> out);
 
  private:
@@ -39,7 +42,8 @@ class ImageRowReader {
 /// Sample type of an ImageRowWriter; PNG takes the integers, EXR the floats.
 enum class RowSamples { u8, u16, f16, f32 };
 
-/// Writes a data picture from top to bottom. Not atomic by itself: give it the temporary name of write_atomically.
+/// Writes a data picture from top to bottom. Not atomic by itself: give it the temporary name of
+/// write_atomically.
 class ImageRowWriter {
  public:
   /// Throws Error when the file cannot be created; `name` is what messages call it.

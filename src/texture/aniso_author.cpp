@@ -22,7 +22,8 @@ namespace fs = std::filesystem;
 constexpr int kRows = 32;
 
 template <typename Enum, std::size_t N>
-Enum from_name(const std::string& name, const std::array<std::pair<const char*, Enum>, N>& known, const char* what) {
+Enum from_name(const std::string& name, const std::array<std::pair<const char*, Enum>, N>& known,
+               const char* what) {
   std::string list;
   for (const auto& [text, value] : known) {
     if (name == text) return value;
@@ -49,8 +50,9 @@ class InputRows {
     added.reader = std::make_unique<ImageRowReader>(input.file);
     const ImageRowReader& r = *added.reader;
     if (first_ != nullptr && (r.width() != first_->width() || r.height() != first_->height())) {
-      throw Error(fmt::format("{}: is {} x {} but {} is {} x {}; all maps need the same size", r.path().string(),
-                              r.width(), r.height(), first_->path().string(), first_->width(), first_->height()));
+      throw Error(fmt::format("{}: is {} x {} but {} is {} x {}; all maps need the same size",
+                              r.path().string(), r.width(), r.height(), first_->path().string(),
+                              first_->width(), first_->height()));
     }
     if (r.channels() < input.channel + channels_needed) {
       throw Error(fmt::format("{}: has {} channels, channel {} is asked for", r.path().string(), r.channels(),
@@ -97,16 +99,18 @@ void write_maps(InputRows& inputs, std::vector<fs::path> outputs, int bits,
     const std::size_t width = static_cast<std::size_t>(inputs.width());
     std::vector<std::unique_ptr<ImageRowWriter>> writers;
     for (std::size_t i = 0; i < files.size(); ++i) {
-      writers.push_back(std::make_unique<ImageRowWriter>(files[i], outputs[i], inputs.width(), inputs.height(), 3,
-                                                         samples_for(outputs[i], bits)));
+      writers.push_back(std::make_unique<ImageRowWriter>(files[i], outputs[i], inputs.width(),
+                                                         inputs.height(), 3, samples_for(outputs[i], bits)));
     }
     for (int y = 0; y < inputs.height(); y += kRows) {
       const int count = std::min(kRows, inputs.height() - y);
       inputs.read(count);
-      std::vector<std::vector<float>> rows(files.size(), std::vector<float>(static_cast<std::size_t>(count) * width * 3));
+      std::vector<std::vector<float>> rows(files.size(),
+                                           std::vector<float>(static_cast<std::size_t>(count) * width * 3));
       parallel_for(count, [&](int r) {
         std::vector<std::array<float, 3>> values(files.size());
-        for (std::size_t i = static_cast<std::size_t>(r) * width; i < (static_cast<std::size_t>(r) + 1) * width; ++i) {
+        for (std::size_t i = static_cast<std::size_t>(r) * width;
+             i < (static_cast<std::size_t>(r) + 1) * width; ++i) {
           texel(i, values);
           for (std::size_t f = 0; f < files.size(); ++f) {
             std::ranges::copy(values[f], rows[f].begin() + static_cast<std::ptrdiff_t>(i * 3));
@@ -201,19 +205,21 @@ void author_anisotropy(const AuthorInputs& in, const fs::path& output, Anisotrop
       case AnisotropyStyle::uv:
         break;
     }
-    return in.gloss ? lobe_of(UvRoughness{1 - value, 1 - amount, turns}) : lobe_of(UvRoughness{value, amount, turns});
+    return in.gloss ? lobe_of(UvRoughness{1 - value, 1 - amount, turns})
+                    : lobe_of(UvRoughness{value, amount, turns});
   };
   write_maps(
       rows, {output}, bits,
       [&](std::size_t i, std::vector<std::array<float, 3>>& out) {
-        const Vec3 c = encode_anisotropy(ggx_matrix(lobe(i)), encoding);
+        const Vec3 c = encode_anisotropy(roughness_matrix(lobe(i)), encoding);
         out[0] = triple(c[0], c[1], c[2]);
       },
       progress);
 }
 
-std::vector<fs::path> decode_anisotropy_map(const fs::path& map, AnisotropyEncoding encoding, DecodeStyle style,
-                                            const fs::path& output, int bits, const Progress& progress) {
+std::vector<fs::path> decode_anisotropy_map(const fs::path& map, AnisotropyEncoding encoding,
+                                            DecodeStyle style, const fs::path& output, int bits,
+                                            const Progress& progress) {
   InputRows rows;
   const std::size_t input = rows.add({map, 0, 0}, 3);
   std::vector<fs::path> outputs{output};
@@ -226,10 +232,10 @@ std::vector<fs::path> decode_anisotropy_map(const fs::path& map, AnisotropyEncod
       rows, outputs, bits,
       [&](std::size_t i, std::vector<std::array<float, 3>>& out) {
         const Vec3 c(rows.value(input, i), rows.value(input, i, 1), rows.value(input, i, 2));
-        const AnisotropicAlpha lobe = ggx_alphas(decode_anisotropy(c, encoding));
+        const AnisotropicRoughness lobe = roughness_from_matrix(decode_anisotropy(c, encoding));
         switch (style) {
           case DecodeStyle::alphas:
-            out[0] = triple(lobe.t, lobe.b, lobe.angle / kPi);
+            out[0] = triple(lobe.alpha_t, lobe.alpha_b, lobe.azimuth / kPi);
             break;
           case DecodeStyle::uv: {
             const UvRoughness s = uv_roughness_of(lobe);

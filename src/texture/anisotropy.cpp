@@ -8,7 +8,7 @@
 namespace sateen {
 namespace {
 
-constexpr double kMinEigenvalue = kMinAlpha * kMinAlpha;
+constexpr double kMinEigenvalue = kMinimumAlpha * kMinimumAlpha;
 
 struct Eigen2 {
   double large;
@@ -34,31 +34,17 @@ Mat2 symmetric(double large, double small, double angle) {
 
 }  // namespace
 
-Mat2 ggx_matrix(const AnisotropicAlpha& alpha) {
-  const double t = std::clamp(alpha.t, kMinAlpha, 1.0);
-  const double b = std::clamp(alpha.b, kMinAlpha, 1.0);
-  return symmetric(t * t, b * b, alpha.angle);
-}
-
-AnisotropicAlpha ggx_alphas(const Mat2& s) {
-  const Eigen2 e = eigenvalues(s);
-  AnisotropicAlpha alpha;
-  alpha.t = std::sqrt(std::clamp(e.large, kMinEigenvalue, 1.0));
-  alpha.b = std::sqrt(std::clamp(e.small, kMinEigenvalue, 1.0));
-  alpha.angle = e.angle < 0 ? e.angle + kPi : e.angle;
-  if (alpha.angle >= kPi || alpha.t <= alpha.b) alpha.angle = 0;
-  return alpha;
-}
-
 Mat2 guarded(const Mat2& s) {
   // Most matrices are well inside; the bounds are checked without a square root.
   const double trace = s(0, 0) + s(1, 1);
   const double det = s.determinant();
-  const bool below = det - kMinEigenvalue * trace + kMinEigenvalue * kMinEigenvalue < 0 || trace < 2 * kMinEigenvalue;
+  const bool below =
+      det - kMinEigenvalue * trace + kMinEigenvalue * kMinEigenvalue < 0 || trace < 2 * kMinEigenvalue;
   const bool above = 1 - trace + det < 0 || trace > 2;
   if (!below && !above) return s;
   const Eigen2 e = eigenvalues(s);
-  return symmetric(std::clamp(e.large, kMinEigenvalue, 1.0), std::clamp(e.small, kMinEigenvalue, 1.0), e.angle);
+  return symmetric(std::clamp(e.large, kMinEigenvalue, 1.0), std::clamp(e.small, kMinEigenvalue, 1.0),
+                   e.angle);
 }
 
 AnisotropyEncoding anisotropy_encoding_from_name(const std::string& name) {
@@ -98,7 +84,7 @@ Mat2 decode_anisotropy(const Vec3& channels, AnisotropyEncoding encoding) {
   return s;
 }
 
-Mat3 sggx_matrix(const Vec3& normal, const Mat2& s) {
+Mat3 sroughness_matrix(const Vec3& normal, const Mat2& s) {
   Mat3 inner = Mat3::Zero();
   inner.topLeftCorner<2, 2>() = s;
   inner(2, 2) = 1;
@@ -120,7 +106,8 @@ Vec3 principal_axis(const Mat3& s, const Vec3& fallback) {
   const double middle = mean + 2 * spread * std::cos(angle - 2 * kPi / 3);
   const double gap = (largest - middle) / largest;
   if (!(gap > kUncertain)) return fallback;
-  // adj(S - lambda I) = (difference of eigenvalues)^2 v v^T: any column of it is v; the longest is the safest.
+  // adj(S - lambda I) = (difference of eigenvalues)^2 v v^T: any column of it is v; the longest is the
+  // safest.
   const Mat3 a = s - largest * Mat3::Identity();
   const Vec3 columns[3] = {a.col(1).cross(a.col(2)), a.col(2).cross(a.col(0)), a.col(0).cross(a.col(1))};
   const Vec3* best = &columns[0];

@@ -11,8 +11,8 @@
 namespace sateen {
 namespace {
 
-// Channels of a block as four planes of 16 floats: every inner loop below runs over the 16 texels of one plane, which
-// compilers turn into vector code.
+// Channels of a block as four planes of 16 floats: every inner loop below runs over the 16 texels of one
+// plane, which compilers turn into vector code.
 using Plane = std::array<float, 16>;
 using Planes = std::array<Plane, 4>;
 
@@ -80,7 +80,8 @@ const QuantTable& quant_table(int bits, PBits p_mode, int p) {
     }
   };
   static const Tables tables;
-  return tables.of[static_cast<std::size_t>(bits)][p_mode == PBits::none ? 0 : static_cast<std::size_t>(1 + p)];
+  return tables
+      .of[static_cast<std::size_t>(bits)][p_mode == PBits::none ? 0 : static_cast<std::size_t>(1 + p)];
 }
 
 using RawEnds = std::array<std::array<float, 4>, 2>;
@@ -101,7 +102,8 @@ Endpoints quantised(const RawEnds& raw, const SubsetFormat& format, std::array<i
 }
 
 /// Squared error of the subset (weights 1 inside, 0 outside) with the best index of every texel.
-SubsetCode coded(const Planes& texels, const Plane& inside, const SubsetFormat& format, const Endpoints& ends) {
+SubsetCode coded(const Planes& texels, const Plane& inside, const SubsetFormat& format,
+                 const Endpoints& ends) {
   SubsetCode code;
   code.ends = ends;
   const float top = static_cast<float>((1 << format.index_bits) - 1);
@@ -166,7 +168,8 @@ RawEnds principal_line(const Planes& texels, const Plane& inside, const SubsetFo
       cov[channel(a)][channel(b)] = cov[channel(b)][channel(a)] = sum;
     }
   }
-  // Power iteration from the row of the largest variance: the error of a slightly wrong axis is of second order.
+  // Power iteration from the row of the largest variance: the error of a slightly wrong axis is of second
+  // order.
   int widest = 0;
   for (int c = 1; c < format.channels; ++c) {
     if (cov[channel(c)][channel(c)] > cov[channel(widest)][channel(widest)]) widest = c;
@@ -176,7 +179,8 @@ RawEnds principal_line(const Planes& texels, const Plane& inside, const SubsetFo
     std::array<float, 4> next{};
     float largest = 0;
     for (int a = 0; a < format.channels; ++a) {
-      for (int b = 0; b < format.channels; ++b) next[channel(a)] += cov[channel(a)][channel(b)] * axis[channel(b)];
+      for (int b = 0; b < format.channels; ++b)
+        next[channel(a)] += cov[channel(a)][channel(b)] * axis[channel(b)];
       largest = std::max(largest, std::abs(next[channel(a)]));
     }
     if (!(largest > 0)) break;
@@ -261,8 +265,8 @@ std::array<int, 2> nearest_p(const RawEnds& raw, const SubsetFormat& format) {
 }
 
 /// Codes the subset with the likeliest p-bits, or with all, and keeps the best.
-void keep_best(const Planes& texels, const Plane& inside, const SubsetFormat& format, const RawEnds& raw, bool all_p,
-               SubsetCode& best) {
+void keep_best(const Planes& texels, const Plane& inside, const SubsetFormat& format, const RawEnds& raw,
+               bool all_p, SubsetCode& best) {
   const auto attempt = [&](std::array<int, 2> p) {
     const SubsetCode code = coded(texels, inside, format, quantised(raw, format, p));
     if (code.error < best.error) best = code;
@@ -295,11 +299,13 @@ class BitWriter {
  public:
   void put(int value, int bits) {
     for (int i = 0; i < bits; ++i, ++at_) {
-      if (((value >> i) & 1) != 0) words_[static_cast<std::size_t>(at_ / 64)] |= std::uint64_t{1} << (at_ % 64);
+      if (((value >> i) & 1) != 0)
+        words_[static_cast<std::size_t>(at_ / 64)] |= std::uint64_t{1} << (at_ % 64);
     }
   }
   void store(std::span<std::byte, 16> out) const {
-    for (std::size_t i = 0; i < 16; ++i) out[i] = static_cast<std::byte>((words_[i / 8] >> (i % 8 * 8)) & 0xff);
+    for (std::size_t i = 0; i < 16; ++i)
+      out[i] = static_cast<std::byte>((words_[i / 8] >> (i % 8 * 8)) & 0xff);
   }
 
  private:
@@ -372,6 +378,36 @@ void try_rotation(const Planes& texels, bool alpha, int mode, int rotation, int 
   if (c.error + s.error < best.error) best = {mode, 0, rotation, index_mode, {c, s}, c.error + s.error};
 }
 
+/// Mode 5 holds any constant colour exactly: for each 8-bit value there are two 7-bit ends whose step at 21/64 is it.
+struct ConstantEnds {
+  std::array<std::array<int, 2>, 256> stored{};
+};
+
+const ConstantEnds& constant_ends() {
+  static const ConstantEnds kEnds = [] {
+    ConstantEnds ends;
+    for (int a = 0; a < 128; ++a) {
+      for (int b = 0; b < 128; ++b) {
+        const int value = (expand(a, 7) * (64 - 21) + expand(b, 7) * 21 + 32) >> 6;
+        ends.stored[static_cast<std::size_t>(value)] = {a, b};
+      }
+    }
+    return ends;
+  }();
+  return kEnds;
+}
+
+BlockCode constant_block(const std::array<std::uint8_t, 4>& texel) {
+  BlockCode code;
+  code.mode = 5;
+  for (std::size_t c = 0; c < 3; ++c) {
+    for (std::size_t e = 0; e < 2; ++e) code.part[0].ends.stored[e][c] = constant_ends().stored[texel[c]][e];
+  }
+  code.part[0].index.fill(1);
+  for (auto& end : code.part[1].ends.stored) end[3] = texel[3];
+  return code;
+}
+
 /// Residual of the best line through each subset of every partition, sorted by it: a cheap guess of what a
 /// two-subset mode can reach.
 struct PartitionGuess {
@@ -426,7 +462,8 @@ std::array<PartitionGuess, 64> guess_partitions(const Planes& texels, int channe
       second[m] = sum;
       first[m] = total[m] - sum;
     }
-    guesses[static_cast<std::size_t>(partition)] = {residual(first, 16 - count) + residual(second, count), partition};
+    guesses[static_cast<std::size_t>(partition)] = {residual(first, 16 - count) + residual(second, count),
+                                                    partition};
   }
   return guesses;
 }
@@ -444,8 +481,8 @@ void try_two_subsets(const Planes& texels, int mode, const SubsetFormat& format,
 }
 
 /// Endpoint channels in the specification's order: all of red, then green, blue, alpha.
-void put_endpoints(BitWriter& bits, std::span<const SubsetCode> subsets, std::size_t first, std::size_t channels,
-                   int width) {
+void put_endpoints(BitWriter& bits, std::span<const SubsetCode> subsets, std::size_t first,
+                   std::size_t channels, int width) {
   for (std::size_t c = first; c < first + channels; ++c) {
     for (const SubsetCode& subset : subsets) {
       for (const auto& end : subset.ends.stored) bits.put(end[c], width);
@@ -503,6 +540,10 @@ void write(BlockCode code, std::span<std::byte, 16> out) {
 }  // namespace
 
 void encode_bc7_block(const BlockRgba8& block, const Bc7Options& options, std::span<std::byte, 16> out) {
+  if (std::ranges::all_of(block, [&](const auto& texel) { return texel == block[0]; })) {
+    write(constant_block(block[0]), out);
+    return;
+  }
   Planes texels{};
   bool alpha = false;
   for (std::size_t i = 0; i < 16; ++i) {

@@ -23,9 +23,9 @@ struct Bc7Options {
   bool alpha = false;
 };
 
-/// Encodes one block: the squared error over the channels, as it will decode, is the measure. Format: Khronos Data
-/// Format Specification 1.3, "BPTC compressed texture formats". Pure; the same bytes on every machine that rounds
-/// floats the IEEE way.
+/// Encodes one block: the squared error over the channels, as it will decode, is the measure. Format: Khronos
+/// Data Format Specification 1.3, "BPTC compressed texture formats". Pure; the same bytes on every machine
+/// that rounds floats the IEEE way.
 void encode_bc7_block(const BlockRgba8& block, const Bc7Options& options, std::span<std::byte, 16> out);
 
 }  // namespace sateen

@@ -23,10 +23,10 @@ enum class BlockFormat {
 std::size_t block_bytes(BlockFormat format);
 VkFormat vk_format(BlockFormat format, bool srgb = false);
 
-/// Compresses a picture of 8-bit RGBA texels (width * height * 4 bytes, row by row) into blocks, row by row of blocks.
-/// The blocks at the right and lower border repeat the last texel. BC1 and BC3 are libsquish's. Works on several rows
-/// of blocks at a time; the result does not depend on the number of threads.
-std::vector<std::byte> compress_blocks(BlockFormat format, std::span<const std::uint8_t> rgba, int width, int height,
-                                       const Bc7Options& options = {});
+/// Compresses a picture of 8-bit RGBA texels (width * height * 4 bytes, row by row) into blocks, row by row
+/// of blocks. The blocks at the right and lower border repeat the last texel. BC1 and BC3 are libsquish's.
+/// Works on several rows of blocks at a time; the result does not depend on the number of threads.
+std::vector<std::byte> compress_blocks(BlockFormat format, std::span<const std::uint8_t> rgba, int width,
+                                       int height, const Bc7Options& options = {});
 
 }  // namespace sateen

@@ -64,14 +64,16 @@ class Pyramid {
 
 }  // namespace
 
-void filter_lobe_chain(LobeSource& source, LobeSink& sink, const ChainOptions& options, const Progress& progress) {
+void filter_lobe_chain(LobeSource& source, LobeSink& sink, const ChainOptions& options,
+                       const Progress& progress) {
   const int width = source.width();
   const int height = source.height();
   const int whole = mip_levels(width, height);
   Pyramid pyramid(width, height, options.levels > 0 ? std::min(options.levels, whole) : whole, options, sink);
 
   const int strip = std::clamp(kStripTexels / width, 8, height > 8 ? height : 8);
-  std::vector<LobeTexel> next(static_cast<std::size_t>(std::min(strip, height)) * static_cast<std::size_t>(width));
+  std::vector<LobeTexel> next(static_cast<std::size_t>(std::min(strip, height)) *
+                              static_cast<std::size_t>(width));
   source.read(next);
   for (int y = 0; y < height; y += strip) {
     const std::vector<LobeTexel> texels = std::move(next);

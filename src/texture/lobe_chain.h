@@ -25,8 +25,8 @@ struct LobeRow {
   std::vector<LobeTexel> texels;
 };
 
-/// Where the mip levels go. Every row of every level comes once. Rows of level 0 come from top to bottom; of the
-/// others in any order (with MipWrap::repeat the topmost ones come last).
+/// Where the mip levels go. Every row of every level comes once. Rows of level 0 come from top to bottom; of
+/// the others in any order (with MipWrap::repeat the topmost ones come last).
 class LobeSink {
  public:
   virtual ~LobeSink() = default;
@@ -41,9 +41,10 @@ struct ChainOptions {
   int levels = 0;  ///< 0: the whole chain down to 1 x 1
 };
 
-/// Filters normal and anisotropy map together into a mip chain; level 0 is passed on as it came (with `isotropic`, made
-/// isotropic). Each level is made from the moments of the level above. Memory is a few dozen rows, whatever the height.
-/// The result does not depend on the number of threads.
-void filter_lobe_chain(LobeSource& source, LobeSink& sink, const ChainOptions& options, const Progress& progress = {});
+/// Filters normal and anisotropy map together into a mip chain; level 0 is passed on as it came (with
+/// `isotropic`, made isotropic). Each level is made from the moments of the level above. Memory is a few
+/// dozen rows, whatever the height. The result does not depend on the number of threads.
+void filter_lobe_chain(LobeSource& source, LobeSink& sink, const ChainOptions& options,
+                       const Progress& progress = {});
 
 }  // namespace sateen

@@ -12,10 +12,11 @@
 namespace sateen {
 namespace {
 
-constexpr std::array<std::pair<FilterMethod, const char*>, 4> kNames{{{FilterMethod::sggx, "sggx"},
-                                                                      {FilterMethod::sggx_variance, "sggx-variance"},
-                                                                      {FilterMethod::lean, "lean"},
-                                                                      {FilterMethod::naive, "naive"}}};
+constexpr std::array<std::pair<FilterMethod, const char*>, 4> kNames{
+    {{FilterMethod::sggx, "sggx"},
+     {FilterMethod::sggx_variance, "sggx-variance"},
+     {FilterMethod::lean, "lean"},
+     {FilterMethod::naive, "naive"}}};
 
 // Steeper normals would give LEAN infinite slopes: 87 degrees.
 constexpr double kMinZ = 0.05;
@@ -64,7 +65,7 @@ void pack_moments(const LobeTexel& texel, const FilterOptions& options, std::spa
   switch (options.method) {
     case FilterMethod::sggx:
     case FilterMethod::sggx_variance: {
-      Mat3 s = sggx_matrix(n, texel.s);
+      Mat3 s = sroughness_matrix(n, texel.s);
       if (options.method == FilterMethod::sggx_variance) s += n * n.transpose();
       store(s, out);
       for (int i = 0; i < 3; ++i) out[static_cast<std::size_t>(6 + i)] = static_cast<float>(n[i]);

@@ -8,16 +8,20 @@
 
 namespace sateen {
 
-/// How a normal map and its anisotropy map are averaged together. Each method turns a texel into moments that average
-/// linearly, and averaged moments back into a normal and a matrix; any linear filter may stand between.
+/// How a normal map and its anisotropy map are averaged together. Each method turns a texel into moments that
+/// average linearly, and averaged moments back into a normal and a matrix; any linear filter may stand
+/// between.
 enum class FilterMethod {
-  /// Average of the 3 x 3 SGGX matrices: "Samurai Shading in Ghost of Tsushima" (2020). The normals' variance adds
+  /// Average of the 3 x 3 SGGX matrices: "Samurai Shading in Ghost of Tsushima" (2020). The normals' variance
+  /// adds
   /// once: alpha^2 + Var of the slopes.
   sggx,
-  /// The same with the variance of the footprint's normals counted twice, S + E[nn^T] - E[n]E[n]^T: the alpha^2 + 2 Var
+  /// The same with the variance of the footprint's normals counted twice, S + E[nn^T] - E[n]E[n]^T: the
+  /// alpha^2 + 2 Var
   /// that matches the width of averaged GGX lobes.
   sggx_variance,
-  /// LEAN mapping (Olano and Baker 2010) for GGX through sigma = alpha / sqrt(2): slopes and their second moments.
+  /// LEAN mapping (Olano and Baker 2010) for GGX through sigma = alpha / sqrt(2): slopes and their second
+  /// moments.
   lean,
   /// What mip-mapping the two textures on their own does: mean normal, mean channels. For comparison.
   naive,
@@ -29,7 +33,7 @@ std::string name_of(FilterMethod method);
 
 struct FilterOptions {
   FilterMethod method = FilterMethod::sggx_variance;
-  NormalSolver solver = NormalSolver::eigen;  ///< of the SGGX methods
+  NormalSolver solver = NormalSolver::eigen;               ///< of the SGGX methods
   AnisotropyEncoding encoding = AnisotropyEncoding::root;  ///< whose channels `naive` averages
   bool isotropic = false;  ///< alpha_t = alpha_b in the result, for engines without anisotropy
 };
@@ -48,7 +52,8 @@ void pack_moments(const LobeTexel& texel, const FilterOptions& options, std::spa
 /// The texel of averaged moments: unit normal with z > 0, guarded matrix.
 LobeTexel unpack_moments(std::span<const float, kMoments> moments, const FilterOptions& options);
 
-/// The isotropic matrix with the same peak: alpha^2 = alpha_t alpha_b. Closer to averaged lobes than the mean of both.
+/// The isotropic matrix with the same peak: alpha^2 = alpha_t alpha_b. Closer to averaged lobes than the mean
+/// of both.
 Mat2 isotropic_matrix(const Mat2& s);
 
 }  // namespace sateen

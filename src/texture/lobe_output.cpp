@@ -20,7 +20,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The three stored channels of both maps. Pictures hold the whole normal, `signed_normals` its components themselves.
+/// The three stored channels of both maps. Pictures hold the whole normal, `signed_normals` its components
+/// themselves.
 struct Channels {
   std::array<float, 3> normal;
   std::array<float, 3> aniso;
@@ -38,7 +39,8 @@ Channels channels_of(const LobeTexel& texel, const LobeOutput& output, bool sign
   return c;
 }
 
-/// Level 0 goes straight to its files; the others are kept in half the size of floats until their last row is there.
+/// Level 0 goes straight to its files; the others are kept in half the size of floats until their last row is
+/// there.
 class PictureSink : public LobeSink {
  public:
   PictureSink(int width, int height, int levels, const LobeOutput& output, ImageRowWriter& normal,
@@ -66,14 +68,17 @@ class PictureSink : public LobeSink {
       }
     });
     if (level == 0) {
-      parallel_for(2, [&](int map) { first_[static_cast<std::size_t>(map)]->write(values[static_cast<std::size_t>(map)]); });
+      parallel_for(2, [&](int map) {
+        first_[static_cast<std::size_t>(map)]->write(values[static_cast<std::size_t>(map)]);
+      });
       return;
     }
     Level& kept = levels_[static_cast<std::size_t>(level - 1)];
     for (std::size_t map = 0; map < 2; ++map) {
       for (std::size_t r = 0; r < rows.size(); ++r) {
         const std::size_t to = static_cast<std::size_t>(rows[r].y) * width * 3;
-        for (std::size_t i = 0; i < width * 3; ++i) kept.maps[map][to + i] = pack(values[map][r * width * 3 + i]);
+        for (std::size_t i = 0; i < width * 3; ++i)
+          kept.maps[map][to + i] = pack(values[map][r * width * 3 + i]);
       }
     }
   }
@@ -114,7 +119,8 @@ class PictureSink : public LobeSink {
   std::vector<Level> levels_;
 };
 
-/// Collects all levels as the file will hold them; blocks are compressed as soon as their four rows are there.
+/// Collects all levels as the file will hold them; blocks are compressed as soon as their four rows are
+/// there.
 class KtxSink : public LobeSink {
  public:
   KtxSink(int width, int height, int levels, const LobeOutput& output) : output_(output) {
@@ -140,7 +146,9 @@ class KtxSink : public LobeSink {
       for (auto& b : bytes) b[index].assign(width * 4, 255);
       for (std::size_t x = 0; x < width; ++x) {
         const Channels c = channels_of(rows[index].texels[x], output_, false);
-        const auto quantised = [](float v) { return static_cast<std::uint8_t>(std::clamp(v, 0.0f, 1.0f) * 255 + 0.5f); };
+        const auto quantised = [](float v) {
+          return static_cast<std::uint8_t>(std::clamp(v, 0.0f, 1.0f) * 255 + 0.5f);
+        };
         for (std::size_t i = 0; i < 3; ++i) {
           bytes[0][index][x * 4 + i] = quantised(c.normal[i]);
           bytes[1][index][x * 4 + i] = quantised(c.aniso[i]);
@@ -169,17 +177,21 @@ class KtxSink : public LobeSink {
     std::array<std::vector<std::uint8_t>, 2> rgba;
   };
 
-  void store_texels(int level, int y, const std::vector<std::uint8_t>& normal, const std::vector<std::uint8_t>& aniso) {
+  void store_texels(int level, int y, const std::vector<std::uint8_t>& normal,
+                    const std::vector<std::uint8_t>& aniso) {
     const std::size_t width = normal.size() / 4;
-    std::byte* rg = maps[0].levels[static_cast<std::size_t>(level)].data() + static_cast<std::size_t>(y) * width * 2;
-    std::byte* rgba = maps[1].levels[static_cast<std::size_t>(level)].data() + static_cast<std::size_t>(y) * width * 4;
+    std::byte* rg =
+        maps[0].levels[static_cast<std::size_t>(level)].data() + static_cast<std::size_t>(y) * width * 2;
+    std::byte* rgba =
+        maps[1].levels[static_cast<std::size_t>(level)].data() + static_cast<std::size_t>(y) * width * 4;
     for (std::size_t x = 0; x < width; ++x) {
       for (std::size_t c = 0; c < 2; ++c) rg[x * 2 + c] = static_cast<std::byte>(normal[x * 4 + c]);
       for (std::size_t c = 0; c < 4; ++c) rgba[x * 4 + c] = static_cast<std::byte>(aniso[x * 4 + c]);
     }
   }
 
-  void add_row(int level, int y, std::size_t width, std::vector<std::uint8_t> normal, std::vector<std::uint8_t> aniso) {
+  void add_row(int level, int y, std::size_t width, std::vector<std::uint8_t> normal,
+               std::vector<std::uint8_t> aniso) {
     const int height = std::max(static_cast<int>(maps[0].height) >> level, 1);
     const auto [at, fresh] = open_.try_emplace({level, y / 4});
     Strip& strip = at->second;
@@ -226,7 +238,8 @@ std::vector<fs::path> write_ktx(LobeSource& source, const fs::path& base, const 
   filter_lobe_chain(source, sink, chain, progress);
   for (Ktx2& map : sink.maps) {
     map.metadata["KTXorientation"] = "rd";
-    map.metadata["SateenFilter"] = name_of(chain.filter.method) + (chain.filter.isotropic ? " isotropic" : "");
+    map.metadata["SateenFilter"] =
+        name_of(chain.filter.method) + (chain.filter.isotropic ? " isotropic" : "");
   }
   sink.maps[0].metadata["SateenNormals"] = output.green_down ? "xy, green down" : "xy, green up";
   sink.maps[1].metadata["SateenAnisotropy"] = name_of(output.encoding);

@@ -64,15 +64,18 @@ LobeFileSource::LobeFileSource(const LobeMapFiles& files) : state_(std::make_uni
   s.width = first.width();
   s.height = first.height();
   if (s.lobes && (s.lobes->width() != s.width || s.lobes->height() != s.height)) {
-    throw Error(fmt::format("{}: is {} x {} but {} is {} x {}; both maps need the same size", s.lobes->path().string(),
-                            s.lobes->width(), s.lobes->height(), files.normals.string(), s.width, s.height));
+    throw Error(fmt::format("{}: is {} x {} but {} is {} x {}; both maps need the same size",
+                            s.lobes->path().string(), s.lobes->width(), s.lobes->height(),
+                            files.normals.string(), s.width, s.height));
   }
   if (s.normals && s.normals->channels() < 2) {
-    throw Error(fmt::format("{}: has one channel; a normal map needs at least x and y", files.normals.string()));
+    throw Error(
+        fmt::format("{}: has one channel; a normal map needs at least x and y", files.normals.string()));
   }
   if (s.lobes && !s.isotropic && s.lobes->channels() < 3) {
-    throw Error(fmt::format("{}: has {} channels; an anisotropy map has three (for a roughness map use --roughness)",
-                            files.anisotropy.string(), s.lobes->channels()));
+    throw Error(
+        fmt::format("{}: has {} channels; an anisotropy map has three (for a roughness map use --roughness)",
+                    files.anisotropy.string(), s.lobes->channels()));
   }
 }
 
@@ -101,23 +104,25 @@ void LobeFileSource::read(std::span<LobeTexel> out) {
   };
   const std::size_t normal_channels = load(s.normals, s.normal_rows);
   const std::size_t lobe_channels = load(s.lobes, s.lobe_rows);
-  const Mat2 constant = ggx_matrix(s.files.constant);
+  const Mat2 constant = guarded(roughness_matrix(s.files.constant));
   const std::size_t width = static_cast<std::size_t>(s.width);
   parallel_for(static_cast<int>(out.size() / width), [&](int row) {
     std::size_t repaired = 0;
-    for (std::size_t i = static_cast<std::size_t>(row) * width; i < (static_cast<std::size_t>(row) + 1) * width; ++i) {
+    for (std::size_t i = static_cast<std::size_t>(row) * width;
+         i < (static_cast<std::size_t>(row) + 1) * width; ++i) {
       LobeTexel& texel = out[i];
       if (normal_channels > 0) {
         bool mended = false;
-        texel.normal = decode_normal(std::span(s.normal_rows).subspan(i * normal_channels, std::min<std::size_t>(normal_channels, 3)),
-                                     s.files.normal_format, mended);
+        texel.normal = decode_normal(
+            std::span(s.normal_rows).subspan(i * normal_channels, std::min<std::size_t>(normal_channels, 3)),
+            s.files.normal_format, mended);
         if (mended) ++repaired;
       }
       if (lobe_channels == 0) {
         texel.s = constant;
       } else if (s.isotropic) {
         const double r = std::clamp(static_cast<double>(s.lobe_rows[i * lobe_channels]), 0.0, 1.0);
-        texel.s = ggx_matrix({r * r, r * r, 0});
+        texel.s = guarded(roughness_matrix({r * r, r * r, 0}));
       } else {
         const float* c = s.lobe_rows.data() + i * lobe_channels;
         texel.s = guarded(decode_anisotropy({c[0], c[1], c[2]}, s.files.encoding));

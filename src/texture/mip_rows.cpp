@@ -109,7 +109,8 @@ std::vector<MipTaps> mip_taps(int in, int out, MipKernel kernel, MipWrap wrap) {
   return all;
 }
 
-MipRowFilter::MipRowFilter(int width, int height, int channels, MipKernel kernel, MipWrap wrap_u, MipWrap wrap_v)
+MipRowFilter::MipRowFilter(int width, int height, int channels, MipKernel kernel, MipWrap wrap_u,
+                           MipWrap wrap_v)
     : channels_(channels),
       across_(mip_taps(width, std::max(width / 2, 1), kernel, wrap_u)),
       down_(mip_taps(height, std::max(height / 2, 1), kernel, wrap_v)),
@@ -117,9 +118,16 @@ MipRowFilter::MipRowFilter(int width, int height, int channels, MipKernel kernel
       narrow_(static_cast<std::size_t>(height)) {
   for (std::size_t y = 0; y < down_.size(); ++y) {
     missing_.push_back(static_cast<int>(down_[y].size()));
-    for (const MipTap& tap : down_[y]) users_[static_cast<std::size_t>(tap.source)].push_back(static_cast<int>(y));
+    for (const MipTap& tap : down_[y])
+      users_[static_cast<std::size_t>(tap.source)].push_back(static_cast<int>(y));
   }
   for (const auto& users : users_) pending_.push_back(static_cast<int>(users.size()));
+}
+
+std::size_t MipRowFilter::held_values() const {
+  std::size_t sum = 0;
+  for (const auto& row : narrow_) sum += row.capacity();
+  return sum;
 }
 
 std::vector<MipRowFilter::Row> MipRowFilter::push(const std::vector<Row>& rows) {
@@ -155,7 +163,8 @@ std::vector<MipRowFilter::Row> MipRowFilter::push(const std::vector<Row>& rows) 
   for (const Row& row : ready) {
     for (const MipTap& tap : down_[static_cast<std::size_t>(row.y)]) {
       if (--pending_[static_cast<std::size_t>(tap.source)] == 0) {
-        narrow_[static_cast<std::size_t>(tap.source)] = {};
+        // Assigning {} would keep the memory.
+        std::vector<float>().swap(narrow_[static_cast<std::size_t>(tap.source)]);
       }
     }
   }

@@ -10,7 +10,8 @@ namespace sateen {
 /// The kernel that halves a level.
 enum class MipKernel {
   box,     ///< the area each texel covers; exact for odd sizes too
-  kaiser,  ///< a sinc of three texels' half width under a Kaiser window (alpha 4): keeps more detail, can ring
+  kaiser,  ///< a sinc of three texels' half width under a Kaiser window (alpha 4): keeps more detail, can
+           ///< ring
 };
 
 /// What lies beyond the border.
@@ -20,7 +21,8 @@ enum class MipWrap { repeat, clamp, mirror };
 MipKernel mip_kernel_from_name(const std::string& name);
 MipWrap mip_wrap_from_name(const std::string& name);
 
-/// Sizes of a whole chain along one axis: each is half the one before, rounded down, at least 1, until both are 1.
+/// Sizes of a whole chain along one axis: each is half the one before, rounded down, at least 1, until both
+/// are 1.
 std::vector<int> mip_sizes(int size, int levels);
 int mip_levels(int width, int height);
 
@@ -34,8 +36,8 @@ using MipTaps = std::vector<MipTap>;
 /// The taps of every output texel when a line of `in` texels becomes one of `out` <= in.
 std::vector<MipTaps> mip_taps(int in, int out, MipKernel kernel, MipWrap wrap);
 
-/// Halves a picture that arrives row by row, in any order, and holds only the rows that are still needed: a few for a
-/// picture that arrives from top to bottom, whatever its height.
+/// Halves a picture that arrives row by row, in any order, and holds only the rows that are still needed: a
+/// few for a picture that arrives from top to bottom, whatever its height.
 class MipRowFilter {
  public:
   struct Row {
@@ -51,6 +53,9 @@ class MipRowFilter {
   /// Takes rows of the input, each once, and returns the output rows that can now be made, by ascending y.
   /// Works on several rows at a time.
   std::vector<Row> push(const std::vector<Row>& rows);
+
+  /// Values kept for rows to come: the memory in use between calls.
+  std::size_t held_values() const;
 
  private:
   int channels_;

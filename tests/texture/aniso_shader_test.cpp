@@ -30,8 +30,10 @@ TextureData texture_of(const Image& image) {
 
 /// Runs `main_text` on every texel of `input`.
 Image run(const Image& input, const std::string& main_text) {
-  const std::string text = "uniform sampler2D map;\nout vec4 result;\nvoid main() {\n"
-                           "  vec3 c = texelFetch(map, ivec2(gl_FragCoord.xy), 0).rgb;\n" + main_text + "}\n";
+  const std::string text =
+      "uniform sampler2D map;\nout vec4 result;\nvoid main() {\n"
+      "  vec3 c = texelFetch(map, ivec2(gl_FragCoord.xy), 0).rgb;\n" +
+      main_text + "}\n";
   const gpu::ShaderFile main_file{"test.frag", text};
   const gpu::Program program(std::array{gpu::shader_file("picture.vert")},
                              std::array{gpu::shader_file("aniso_map.glsl"), main_file});
@@ -52,7 +54,8 @@ Image run(const Image& input, const std::string& main_text) {
   const Image read = target.read();
   Image upright(kSize, kSize, 4);
   for (int y = 0; y < kSize; ++y) {
-    for (int x = 0; x < kSize; ++x) std::ranges::copy(read.pixel(x, kSize - 1 - y), upright.pixel(x, y).begin());
+    for (int x = 0; x < kSize; ++x)
+      std::ranges::copy(read.pixel(x, kSize - 1 - y), upright.pixel(x, y).begin());
   }
   return upright;
 }
@@ -67,8 +70,11 @@ TEST(AnisoShader, DecodesAsTheReferenceDoes) {
     Image input(kSize, kSize, 4);
     for (int y = 0; y < kSize; ++y) {
       for (int x = 0; x < kSize; ++x) {
-        const Vec3 c = x < kSize / 2 ? encode_anisotropy(ggx_matrix({alpha(generator), alpha(generator), 7 * alpha(generator)}), encoding)
-                                     : Vec3(value(generator), value(generator), value(generator));
+        const Vec3 c =
+            x < kSize / 2
+                ? encode_anisotropy(roughness_matrix({alpha(generator), alpha(generator), 7 * alpha(generator)}),
+                                    encoding)
+                : Vec3(value(generator), value(generator), value(generator));
         for (int k = 0; k < 3; ++k) input.at(x, y, k) = static_cast<float>(c[k]);
       }
     }
@@ -77,14 +83,14 @@ TEST(AnisoShader, DecodesAsTheReferenceDoes) {
     for (int y = 0; y < kSize; ++y) {
       for (int x = 0; x < kSize; ++x) {
         const Vec3 c(input.at(x, y, 0), input.at(x, y, 1), input.at(x, y, 2));
-        const AnisotropicAlpha expected = ggx_alphas(decode_anisotropy(c, encoding));
+        const AnisotropicRoughness expected = roughness_from_matrix(decode_anisotropy(c, encoding));
         const auto got = out.pixel(x, y);
-        ASSERT_NEAR(got[0], expected.t, 1e-4);
-        ASSERT_NEAR(got[1], expected.b, 2e-3);
+        ASSERT_NEAR(got[0], expected.alpha_t, 1e-4);
+        ASSERT_NEAR(got[1], expected.alpha_b, 2e-3);
         ASSERT_GE(got[1], 0.9e-3f);
         ASSERT_NEAR(std::hypot(got[2], got[3]), 1, 1e-4);
-        if (expected.t - expected.b > 0.02) {
-          const double along = got[2] * std::cos(expected.angle) + got[3] * std::sin(expected.angle);
+        if (expected.alpha_t - expected.alpha_b > 0.02) {
+          const double along = got[2] * std::cos(expected.azimuth) + got[3] * std::sin(expected.azimuth);
           ASSERT_NEAR(std::abs(along), 1, 1e-3);
         }
       }
@@ -102,7 +108,8 @@ TEST(AnisoShader, FrameIsTheSmallestRotation) {
     }
   }
   for (int column = 0; column < 3; ++column) {
-    const Image out = run(input, "  result = vec4(normal_map_frame(decode_normal_xy(c.xy))[" + std::to_string(column) + "], 1.0);\n");
+    const Image out = run(input, "  result = vec4(normal_map_frame(decode_normal_xy(c.xy))[" +
+                                     std::to_string(column) + "], 1.0);\n");
     for (int y = 0; y < kSize; ++y) {
       for (int x = 0; x < kSize; ++x) {
         const Vec3 n = Vec3(x / 20.0 - 1.6, y / 20.0 - 1.6, 1).normalized();

@@ -38,14 +38,15 @@ Image lobes(int width, int height, AnisotropyEncoding encoding = AnisotropyEncod
   Image image(width, height, 3);
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {
-      const Vec3 c = encode_anisotropy(ggx_matrix({0.4, 0.1, 0.1 * x + 0.05 * y}), encoding);
+      const Vec3 c = encode_anisotropy(roughness_matrix({0.4, 0.1, 0.1 * x + 0.05 * y}), encoding);
       for (int k = 0; k < 3; ++k) image.at(x, y, k) = static_cast<float>(c[k]);
     }
   }
   return image;
 }
 
-LobeMapFiles maps_of(const fs::path& normals, const fs::path& anisotropy = {}, const fs::path& roughness = {}) {
+LobeMapFiles maps_of(const fs::path& normals, const fs::path& anisotropy = {},
+                     const fs::path& roughness = {}) {
   LobeMapFiles files;
   files.normals = normals;
   files.anisotropy = anisotropy;
@@ -209,14 +210,14 @@ TEST(LobeFiles, RoughnessMapsAndConstantsMayReplaceTheAnisotropyMap) {
   std::vector<LobeTexel> texels(64);
   LobeFileSource rough(maps_of({}, {}, folder / "rough.png"));
   rough.read(texels);
-  EXPECT_NEAR(ggx_alphas(texels[5].s).t, 0.25, 1e-4);
+  EXPECT_NEAR(roughness_from_matrix(texels[5].s).alpha_t, 0.25, 1e-4);
   EXPECT_EQ(texels[5].normal, Vec3::UnitZ());
   write_data(folder / "normal.png", bumps(8, 8));
   LobeMapFiles files = maps_of(folder / "normal.png");
   files.constant = {0.3, 0.2, 0.5};
   LobeFileSource constant(files);
   constant.read(texels);
-  EXPECT_NEAR(ggx_alphas(texels[9].s).b, 0.2, 1e-9);
+  EXPECT_NEAR(roughness_from_matrix(texels[9].s).alpha_b, 0.2, 1e-9);
 }
 
 TEST(Author, ConstantsAndMapsMeet) {
@@ -236,7 +237,7 @@ TEST(Author, ConstantsAndMapsMeet) {
     ASSERT_EQ(map.width, 6);
     for (int x = 0; x < 6; ++x) {
       const Mat2 s = decode_anisotropy({map.at(x, 1, 0), map.at(x, 1, 1), map.at(x, 1, 2)}, encoding);
-      EXPECT_NEAR((s - ggx_matrix({0.36, 0.09, 2 * kPi * x / 6})).norm(), 0, 2e-4);
+      EXPECT_NEAR((s - roughness_matrix({0.36, 0.09, 2 * kPi * x / 6})).norm(), 0, 2e-4);
     }
   }
 }

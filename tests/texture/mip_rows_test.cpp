@@ -77,7 +77,8 @@ TEST(MipTaps, KaiserPassesLowFrequenciesBetterThanBox) {
     double sum = 0;
     for (const MipTaps& line : taps) {
       double value = 0;
-      for (const MipTap& tap : line) value += tap.weight * std::sin(2 * 3.14159265358979 * (tap.source + 0.5) / 6);
+      for (const MipTap& tap : line)
+        value += tap.weight * std::sin(2 * 3.14159265358979 * (tap.source + 0.5) / 6);
       sum += value * value;
     }
     return std::sqrt(sum / (in / 2) * 2);
@@ -123,6 +124,18 @@ TEST(MipRowFilter, KeepsAPeriodicPictureInPlaceUnderRepeat) {
       EXPECT_NEAR(to[(y + 1) % 8].values[(x + 1) % 8], from[y].values[x], 1e-5);
     }
   }
+}
+
+TEST(MipRowFilter, HoldsAFewRowsOfATallPicture) {
+  const int height = 3000;
+  MipRowFilter filter(8, height, 1, MipKernel::kaiser, MipWrap::repeat, MipWrap::repeat);
+  std::size_t most = 0;
+  for (int y = 0; y < height; ++y) {
+    filter.push({{y, std::vector<float>(8, 1.0f)}});
+    most = std::max(most, filter.held_values());
+  }
+  EXPECT_LE(most, 24u * 4);
+  EXPECT_EQ(filter.held_values(), 0u);
 }
 
 TEST(MipRowFilter, HandlesLinesAndSingleTexels) {
