@@ -20,7 +20,7 @@ namespace {
 
 constexpr int kFrames = 128;
 constexpr int kSphere = 640;
-constexpr Crop kCrop{320, 40, kSphere};
+constexpr PixelRect kCrop{320, 40, kSphere, kSphere};
 
 /// The frames, written once: a turning sphere on a noisy wall, as a camera would store it.
 const std::vector<std::filesystem::path>& frames() {

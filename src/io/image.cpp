@@ -76,7 +76,49 @@ Image in_display_window(const OIIO::ImageSpec& spec, Image data) {
   return full;
 }
 
-Decoded decode(const fs::path& path, bool allow_non_finite) {
+/// What sample k / steps stands for: itself, or the linear light of an sRGB sample. A table, since reading
+/// frames is to be bound by decoding and not by powers.
+std::vector<float> sample_values(int steps, bool srgb) {
+  std::vector<float> values(static_cast<std::size_t>(steps) + 1);
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const float sample = static_cast<float>(i) / static_cast<float>(steps);
+    values[i] = srgb ? srgb_decode(sample) : sample;
+  }
+  return values;
+}
+
+void decode_srgb(Image& image, int steps) {
+  const std::vector<float> values = sample_values(steps, true);
+  const std::size_t channels = static_cast<std::size_t>(image.channels);
+  const std::size_t colours = channels - (channels == 2 || channels == 4 ? 1 : 0);
+  for (std::size_t i = 0; i < image.data.size(); i += channels) {
+    for (std::size_t c = 0; c < colours; ++c) {
+      float& v = image.data[i + c];
+      v = values[static_cast<std::size_t>(v * static_cast<float>(steps) + 0.5f)];
+    }
+  }
+}
+
+Image turned_upright(const Image& image, int orientation) {
+  OIIO::ImageSpec flat(image.width, image.height, image.channels, OIIO::TypeDesc::FLOAT);
+  flat["Orientation"] = orientation;
+  // The buffer only looks at the pixels, though its interface does not promise it.
+  const OIIO::ImageBuf turned =
+      OIIO::ImageBufAlgo::reorient(OIIO::ImageBuf(flat, const_cast<float*>(image.data.data())));
+  Image result(turned.spec().width, turned.spec().height, image.channels);
+  turned.get_pixels(OIIO::ROI::All(), OIIO::TypeDesc::FLOAT, result.data.data());
+  return result;
+}
+
+void check_finite(const fs::path& path, const Image& image, const PixelRect& region) {
+  const auto bad = std::ranges::find_if_not(image.data, [](float v) { return std::isfinite(v); });
+  if (bad == image.data.end()) return;
+  const auto pixel = (bad - image.data.begin()) / image.channels;
+  image_fail(path, fmt::format("has a value that is not finite at pixel ({}, {})",
+                               region.x + pixel % image.width, region.y + pixel / image.width));
+}
+
+Decoded decode(const fs::path& path, const ReadImageOptions& options) {
   const auto input = open(path);
   const OIIO::ImageSpec& spec = input->spec();
   if (spec.get_int_attribute("oiio:Movie") != 0 && input->seek_subimage(1, 0)) {
@@ -93,48 +135,41 @@ Decoded decode(const fs::path& path, bool allow_non_finite) {
   result.alpha =
       spec.alpha_channel >= 0 && spec.alpha_channel == channels - 1 && (channels == 2 || channels == 4);
   result.associated = spec.get_int_attribute("oiio:UnassociatedAlpha") == 0;
+  const bool integer = result.steps > 0;
+  const bool srgb =
+      options.encoding == Encoding::srgb || (options.encoding == Encoding::automatic && integer);
+  const int orientation = spec.get_int_attribute("Orientation", 1);
+  const PixelRect all{0, 0, orientation >= 5 ? spec.full_height : spec.full_width,
+                      orientation >= 5 ? spec.full_width : spec.full_height};
+  const PixelRect region = options.region.value_or(all);
+  if (!fits(region, all.width, all.height)) {
+    image_fail(path, fmt::format("the {} x {} pixels from ({}, {}) leave the {} x {} picture", region.width,
+                                 region.height, region.x, region.y, all.width, all.height));
+  }
   const std::string_view type = input->format_name();
   if (type == "jpeg") {
-    result.image = decode_jpeg(path, read_bytes(path));
-  } else {
-    result.image = Image(spec.width, spec.height, channels);
-    if (!input->read_image(0, 0, 0, channels, OIIO::TypeDesc::FLOAT, result.image.data.data())) {
-      image_fail(path, "is truncated or corrupt: " + image_reason(input->geterror()));
-    }
+    const std::vector<float> values = sample_values(255, srgb);
+    const bool upright = orientation <= 1;
+    result.image =
+        decode_jpeg(path, read_bytes(path), upright ? region : PixelRect{0, 0, spec.width, spec.height},
+                    std::span<const float, 256>(values));
+    if (!upright) result.image = cropped(turned_upright(result.image, orientation), region);
+    return result;
+  }
+  result.image = Image(spec.width, spec.height, channels);
+  if (!input->read_image(0, 0, 0, channels, OIIO::TypeDesc::FLOAT, result.image.data.data())) {
+    image_fail(path, "is truncated or corrupt: " + image_reason(input->geterror()));
   }
   if (type == "openexr") result.image = in_display_window(spec, std::move(result.image));
-  if (const int orientation = spec.get_int_attribute("Orientation", 1); orientation > 1) {
-    OIIO::ImageSpec flat(result.image.width, result.image.height, channels, OIIO::TypeDesc::FLOAT);
-    flat["Orientation"] = orientation;
-    const OIIO::ImageBuf turned =
-        OIIO::ImageBufAlgo::reorient(OIIO::ImageBuf(flat, result.image.data.data()));
-    result.image = Image(turned.spec().width, turned.spec().height, channels);
-    turned.get_pixels(OIIO::ROI::All(), OIIO::TypeDesc::FLOAT, result.image.data.data());
-  }
-  if (!allow_non_finite && result.steps == 0) {
-    const auto bad = std::ranges::find_if_not(result.image.data, [](float v) { return std::isfinite(v); });
-    if (bad != result.image.data.end()) {
-      const auto pixel = (bad - result.image.data.begin()) / channels;
-      image_fail(path, fmt::format("has a value that is not finite at pixel ({}, {})",
-                                   pixel % result.image.width, pixel / result.image.width));
-    }
+  if (orientation > 1) result.image = turned_upright(result.image, orientation);
+  if (options.region) result.image = cropped(result.image, region);
+  if (!options.allow_non_finite && !integer) check_finite(path, result.image, region);
+  if (srgb && integer) {
+    decode_srgb(result.image, result.steps);
+  } else if (srgb) {
+    result.image = srgb_decoded(std::move(result.image));
   }
   return result;
-}
-
-/// srgb_decoded for samples k / steps, by a table: reading frames is bound by decoding, not by powers.
-void decode_srgb(Image& image, int steps) {
-  std::vector<float> table(static_cast<std::size_t>(steps) + 1);
-  for (std::size_t i = 0; i < table.size(); ++i)
-    table[i] = srgb_decode(static_cast<float>(i) / static_cast<float>(steps));
-  const std::size_t channels = static_cast<std::size_t>(image.channels);
-  const std::size_t colours = channels - (channels == 2 || channels == 4 ? 1 : 0);
-  for (std::size_t i = 0; i < image.data.size(); i += channels) {
-    for (std::size_t c = 0; c < colours; ++c) {
-      float& v = image.data[i + c];
-      v = table[static_cast<std::size_t>(v * static_cast<float>(steps) + 0.5f)];
-    }
-  }
 }
 
 void multiply_by_alpha(Image& image) {
@@ -163,20 +198,13 @@ ImageInfo read_image_info(const fs::path& path) {
 }
 
 Image read_image(const fs::path& path, const ReadImageOptions& options) {
-  Decoded decoded = decode(path, options.allow_non_finite);
-  const bool srgb =
-      options.encoding == Encoding::srgb || (options.encoding == Encoding::automatic && decoded.steps > 0);
-  if (srgb && decoded.steps > 0) {
-    decode_srgb(decoded.image, decoded.steps);
-  } else if (srgb) {
-    decoded.image = srgb_decoded(std::move(decoded.image));
-  }
+  Decoded decoded = decode(path, options);
   if (decoded.alpha && !decoded.associated) multiply_by_alpha(decoded.image);
   return std::move(decoded.image);
 }
 
 Image read_data(const fs::path& path, bool allow_non_finite) {
-  return decode(path, allow_non_finite).image;
+  return decode(path, {.encoding = Encoding::linear, .allow_non_finite = allow_non_finite}).image;
 }
 
 }  // namespace sateen

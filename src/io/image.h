@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -19,7 +20,8 @@ enum class Encoding {
 
 struct ReadImageOptions {
   Encoding encoding = Encoding::automatic;
-  bool allow_non_finite = false;  ///< otherwise a NaN or infinity is an Error that names the pixel
+  bool allow_non_finite = false;         ///< otherwise a NaN or infinity is an Error that names the pixel
+  std::optional<PixelRect> region = {};  ///< read only these pixels; an Error if they leave the picture
 };
 
 /// What a file says of itself, without decoding its pixels; the size is the one read_image returns.

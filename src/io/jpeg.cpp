@@ -53,7 +53,8 @@ struct Decoder {
 
 }  // namespace
 
-Image decode_jpeg(const std::filesystem::path& path, std::span<const std::byte> bytes) {
+Image decode_jpeg(const std::filesystem::path& path, std::span<const std::byte> bytes,
+                  const PixelRect& region, std::span<const float, 256> values) {
   ErrorManager errors{};
   Decoder decoder;
   Image image;
@@ -70,15 +71,17 @@ Image decode_jpeg(const std::filesystem::path& path, std::span<const std::byte> 
                static_cast<unsigned long>(bytes.size()));
   jpeg_read_header(&info, TRUE);
   jpeg_start_decompress(&info);
-  image = Image(static_cast<int>(info.output_width), static_cast<int>(info.output_height),
-                info.output_components);
-  row.resize(static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.channels));
+  image = Image(region.width, region.height, info.output_components);
+  const auto channels = static_cast<std::size_t>(info.output_components);
+  row.resize(info.output_width * channels);
   while (info.output_scanline < info.output_height) {
-    const auto y = static_cast<int>(info.output_scanline);
+    const int y = static_cast<int>(info.output_scanline) - region.y;
     JSAMPROW rows = row.data();
     jpeg_read_scanlines(&info, &rows, 1);
-    std::ranges::transform(row, image.pixel(0, y).data(),
-                           [](JSAMPLE v) { return static_cast<float>(v) / 255; });
+    if (y < 0 || y >= region.height) continue;
+    const JSAMPLE* in = row.data() + static_cast<std::size_t>(region.x) * channels;
+    std::transform(in, in + static_cast<std::size_t>(region.width) * channels, image.pixel(0, y).data(),
+                   [&](JSAMPLE v) { return values[v]; });
   }
   jpeg_finish_decompress(&info);
   return image;
