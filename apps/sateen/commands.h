@@ -11,6 +11,11 @@ void add_amc_convert(CLI::App& parent);
 void add_amc_info(CLI::App& parent);
 void add_amc_pictures(CLI::App& parent);
 void add_amc_symmetry(CLI::App& parent);
+void add_matcap_bake(CLI::App& parent);
+void add_matcap_decompose(CLI::App& parent);
+void add_matcap_estimate(CLI::App& parent);
+void add_matcap_info(CLI::App& parent);
+void add_matcap_separate(CLI::App& parent);
 void add_render(CLI::App& parent);
 void add_shade(CLI::App& parent);
 

@@ -76,6 +76,12 @@ void add_commands(CLI::App& app) {
   add_amc_info(amc);
   add_amc_pictures(amc);
   add_amc_convert(amc);
+  CLI::App& matcap = add_noun(app, "matcap", "MatCap decomposition: turn the light, change the material");
+  add_matcap_separate(matcap);
+  add_matcap_estimate(matcap);
+  add_matcap_decompose(matcap);
+  add_matcap_info(matcap);
+  add_matcap_bake(matcap);
   add_render(app);
   add_shade(app);
 }

@@ -115,7 +115,7 @@ std::unique_ptr<Appearance> DecomposedAppearance::read_material(const fs::path& 
     }
     maps.roughness_scale = scale;
   }
-  return std::make_unique<DecomposedAppearance>(apply(std::move(matcap), edits), std::move(maps));
+  return std::make_unique<DecomposedAppearance>(apply_edits(std::move(matcap), edits), std::move(maps));
 }
 
 Vec3 DecomposedAppearance::evaluate(const Surface& surface) const {

@@ -34,6 +34,30 @@ MatcapPart part_of(const Image& component, const Disc& disc, const std::vector<R
   return part;
 }
 
+/// A sphere larger than kLargestRadius, decomposed at that size. Regions stay in the pixels of the picture given.
+MatcapDecomposition decompose_smaller(const Image& picture, const Disc& disc, const DecomposeOptions& options,
+                                      const std::string& name, double shrink) {
+  const auto scaled = [&](int length) { return std::max(1, static_cast<int>(std::lround(length * shrink))); };
+  const Image smaller = resized(picture, scaled(picture.width), scaled(picture.height));
+  const double across = static_cast<double>(smaller.width) / picture.width;
+  const double down = static_cast<double>(smaller.height) / picture.height;
+  DecomposeOptions smaller_options = options;
+  for (auto& regions : smaller_options.regions) {
+    for (Region& r : regions) {
+      r = {static_cast<int>(r.x * across), static_cast<int>(r.y * down), scaled(r.width), scaled(r.height)};
+    }
+  }
+  const Disc place{disc.x * across, disc.y * down, std::min(kLargestRadius, disc.radius * std::min(across, down))};
+  MatcapDecomposition result = decompose(smaller, place, smaller_options, name);
+  for (MatcapPart& part : result.parts) {
+    for (Region& r : part.regions) {
+      r = {static_cast<int>(r.x / across), static_cast<int>(r.y / down), static_cast<int>(std::ceil(r.width / across)),
+           static_cast<int>(std::ceil(r.height / down))};
+    }
+  }
+  return result;
+}
+
 }  // namespace
 
 double MatcapPart::slope() const {
@@ -65,6 +89,14 @@ MatcapDecomposition decompose(const Separation& components, const Disc& disc, co
 MatcapDecomposition decompose(const Image& picture, const Disc& disc, const DecomposeOptions& options,
                               const std::string& name) {
   check_disc(disc, picture.width, picture.height, name);
+  if (disc.radius > kLargestRadius) {
+    const double shrink = kLargestRadius / disc.radius;
+    MatcapDecomposition result = decompose_smaller(picture, disc, options, name, shrink);
+    result.width = picture.width;
+    result.height = picture.height;
+    result.disc = disc;
+    return result;
+  }
   return decompose(separate(to_add_up_space(picture, options.space), disc, options.outliers, name), disc, options, name);
 }
 

@@ -60,6 +60,9 @@ struct DecomposeOptions {
 inline constexpr int kSmallestMap = 16;
 inline constexpr int kLargestMap = 1024;
 
+/// Spheres of more pixels are first shrunk to this radius: no sphere map would hold their detail.
+inline constexpr double kLargestRadius = 1024;
+
 /// The texels across the sphere maps of a sphere of this size: as many as its diameter has pixels, a multiple of 8.
 int default_map_size(const Disc& disc);
 

@@ -149,7 +149,7 @@ Vec3 main_highlight(const MatcapDecomposition& matcap) {
   return brightest;
 }
 
-EditedMatcap apply(MatcapDecomposition matcap, const std::vector<Edit>& edits) {
+EditedMatcap apply_edits(MatcapDecomposition matcap, const std::vector<Edit>& edits) {
   Replay replay(std::move(matcap));
   for (const Edit& edit : edits) std::visit(replay, edit);
   return replay.finish();

@@ -85,7 +85,7 @@ std::vector<Edit> read_edits(const std::filesystem::path& path);
 
 /// Replays the edits. Throws Error when a file cannot be read, MatCaps to mix add up in different spaces, or a part would
 /// become sharper than a mirror.
-EditedMatcap apply(MatcapDecomposition matcap, const std::vector<Edit>& edits);
+EditedMatcap apply_edits(MatcapDecomposition matcap, const std::vector<Edit>& edits);
 
 /// The direction of the brightest, slightly blurred light of the high part, before any turn.
 Vec3 main_highlight(const MatcapDecomposition& matcap);
