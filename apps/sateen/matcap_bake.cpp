@@ -43,8 +43,8 @@ void run(const Arguments& arguments) {
   }
   if (arguments.layers) {
     auto layers = bake_layers(matcap);
-    write_layers(arguments.output,
-                 std::vector<ImageLayer>{{"diffuse", std::move(layers[0])}, {"specular", std::move(layers[1])}});
+    write_layers(arguments.output, std::vector<ImageLayer>{{"diffuse", std::move(layers[0])},
+                                                           {"specular", std::move(layers[1])}});
   } else if (!arguments.environment.empty()) {
     const Part part = arguments.environment == "low" ? Part::low : Part::high;
     write_image(arguments.output, bake_environment(matcap, part, arguments.environment_height));
@@ -57,17 +57,20 @@ void run(const Arguments& arguments) {
 
 void add_matcap_bake(CLI::App& parent) {
   auto arguments = std::make_shared<Arguments>();
-  CLI::App* command = add_command(parent, "bake", "Turn a decomposed MatCap, edited or not, back into pictures",
-                                  "sateen matcap bake gold.ktx2 --turn 0,40,0 -o gold_turned.png");
+  CLI::App* command =
+      add_command(parent, "bake", "Turn a decomposed MatCap, edited or not, back into pictures",
+                  "sateen matcap bake gold.ktx2 --turn 0,40,0 -o gold_turned.png");
   command->add_option("matcap", arguments->input, "The .ktx2 that decompose wrote")->required();
   command
-      ->add_option("-o,--output", arguments->output, "The picture: .png, .exr, .jpg, .tif or .hdr, of the input's size")
+      ->add_option("-o,--output", arguments->output,
+                   "The picture: .png, .exr, .jpg, .tif or .hdr, of the input's size")
       ->required();
   command->add_option("--edits", arguments->edits, "JSON list of edits, see docs/matcap-decomposition.md");
   command->add_option("--turn", arguments->turn,
                       "X,Y,Z: turn the light by these degrees about x, then y, then z, after the edits");
   command
-      ->add_option("--size", arguments->size, "A square picture of so many pixels that the sphere fills; 0: as the input")
+      ->add_option("--size", arguments->size,
+                   "A square picture of so many pixels that the sphere fills; 0: as the input")
       ->check(CLI::Range(0, 8192));
   command->add_flag("--layers", arguments->layers, "Write an .exr with the layers diffuse and specular");
   command

@@ -36,7 +36,8 @@ void run(const Arguments& arguments) {
   const auto inputs = expand_inputs(arguments.inputs, image_extensions());
   if (extension_of(arguments.output) == ".ktx2") {
     if (inputs.size() != 1) {
-      throw CLI::ValidationError("--output", fmt::format("{} MatCaps need a folder, not one .ktx2", inputs.size()));
+      throw CLI::ValidationError("--output",
+                                 fmt::format("{} MatCaps need a folder, not one .ktx2", inputs.size()));
     }
     decompose_file(inputs[0], arguments.output, options);
     return;
@@ -44,7 +45,8 @@ void run(const Arguments& arguments) {
   if (arguments.output.has_extension()) {
     throw CLI::ValidationError("--output", "must be a .ktx2 or a folder (a name without extension)");
   }
-  const auto entries = decompose_files(inputs, arguments.output, options, arguments.anew, progress_bar("Decomposing"));
+  const auto entries =
+      decompose_files(inputs, arguments.output, options, arguments.anew, progress_bar("Decomposing"));
   write_contact_sheet(arguments.output, entries, progress_bar("Contact sheet"));
   std::string failures;
   int failed = 0;
@@ -53,7 +55,8 @@ void run(const Arguments& arguments) {
     ++failed;
     failures += "\n  " + entry.failure;
   }
-  if (failed > 0) throw Error(fmt::format("{} of {} MatCaps could not be decomposed:{}", failed, entries.size(), failures));
+  if (failed > 0)
+    throw Error(fmt::format("{} of {} MatCaps could not be decomposed:{}", failed, entries.size(), failures));
 }
 
 }  // namespace

@@ -25,10 +25,14 @@ struct Arguments {
 
 const char* name_of_case(Signature::Case found) {
   switch (found) {
-    case Signature::Case::minimum: return "minimum";
-    case Signature::Case::inflection: return "inflection";
-    case Signature::Case::widest: return "widest";
-    case Signature::Case::degenerate: return "degenerate";
+    case Signature::Case::minimum:
+      return "minimum";
+    case Signature::Case::inflection:
+      return "inflection";
+    case Signature::Case::widest:
+      return "widest";
+    case Signature::Case::degenerate:
+      return "degenerate";
   }
   return "";
 }
@@ -40,8 +44,9 @@ nlohmann::json to_json(const FilterEstimate& estimate) {
   const Signature& s = estimate.signature;
   for (std::size_t i = 0; i < s.eps.size(); ++i) {
     // Degenerate windows become null.
-    curve.push_back({{"window", s.eps[i]},
-                     {"variance", std::isfinite(s.variance[i]) ? nlohmann::json(s.variance[i]) : nlohmann::json()}});
+    curve.push_back(
+        {{"window", s.eps[i]},
+         {"variance", std::isfinite(s.variance[i]) ? nlohmann::json(s.variance[i]) : nlohmann::json()}});
   }
   nlohmann::json result{{"variance", estimate.variance},
                         {"slope", slope_of_variance(estimate.variance)},
@@ -58,8 +63,9 @@ nlohmann::json to_json(const FilterEstimate& estimate) {
 std::string as_text(const char* name, const FilterEstimate& estimate) {
   return fmt::format("{:<5} variance {:.5f} ({:.2f} degrees), slope {:.4f}, {}\n", name, estimate.variance,
                      degrees(std::sqrt(estimate.variance)), slope_of_variance(estimate.variance),
-                     estimate.measured ? (estimate.feature == Feature::edge ? "measured at an edge" : "measured at a line")
-                                       : "assumed: nothing sharp enough to measure");
+                     estimate.measured
+                         ? (estimate.feature == Feature::edge ? "measured at an edge" : "measured at a line")
+                         : "assumed: nothing sharp enough to measure");
 }
 
 void run(const Arguments& arguments) {

@@ -8,7 +8,8 @@ std::vector<Region> to_regions(const std::vector<std::vector<int>>& lists, const
   std::vector<Region> regions;
   for (const auto& list : lists) {
     if (list.size() != 4 || list[2] < 1 || list[3] < 1) {
-      throw CLI::ValidationError(option, "a region is X,Y,WIDTH,HEIGHT in pixels, with width and height above 0");
+      throw CLI::ValidationError(option,
+                                 "a region is X,Y,WIDTH,HEIGHT in pixels, with width and height above 0");
     }
     regions.push_back({list[0], list[1], list[2], list[3]});
   }
@@ -19,7 +20,8 @@ std::vector<Region> to_regions(const std::vector<std::vector<int>>& lists, const
 
 void add_matcap_options(CLI::App& command, MatcapArguments& arguments) {
   command
-      .add_option("--disc", arguments.disc, "X,Y,RADIUS in pixels: where the sphere is; otherwise it is found")
+      .add_option("--disc", arguments.disc,
+                  "X,Y,RADIUS in pixels: where the sphere is; otherwise it is found")
       ->delimiter(',')
       ->expected(3);
   command.add_flag("--linear", arguments.linear, "Low and high add up in linear light, not in sRGB values");

@@ -22,13 +22,15 @@ void add_matcap_separate(CLI::App& parent) {
       add_command(parent, "separate", "Split a MatCap into low- and high-frequency parts that add up to it",
                   "sateen matcap separate examples/matcaps/ceramic.exr --low low.exr --high high.exr");
   command->add_option("matcap", arguments->input, "The MatCap, any picture")->required();
-  command->add_option("--low", arguments->low, "Low part: .exr (float), .png (16 bit); values as they add up")->required();
+  command->add_option("--low", arguments->low, "Low part: .exr (float), .png (16 bit); values as they add up")
+      ->required();
   command->add_option("--high", arguments->high, "High part: the MatCap minus the low part")->required();
   add_matcap_options(*command, arguments->matcap);
   command->callback([arguments] {
     const MatcapPicture picture = read_matcap_picture(arguments->input, disc_of(arguments->matcap));
-    const Separation parts = separate(to_add_up_space(picture.image, space_of(arguments->matcap)), picture.disc,
-                                      outliers_of(arguments->matcap), arguments->input.string());
+    const Separation parts =
+        separate(to_add_up_space(picture.image, space_of(arguments->matcap)), picture.disc,
+                 outliers_of(arguments->matcap), arguments->input.string());
     write_data(arguments->low, parts.low);
     write_data(arguments->high, parts.high);
   });

@@ -25,7 +25,8 @@ std::string signature_of(const DecomposeFileOptions& options) {
       text += fmt::format(" {}={},{},{},{}", name_of(part), r.x, r.y, r.width, r.height);
     }
   }
-  if (options.disc) text += fmt::format(" disc={},{},{}", options.disc->x, options.disc->y, options.disc->radius);
+  if (options.disc)
+    text += fmt::format(" disc={},{},{}", options.disc->x, options.disc->y, options.disc->radius);
   return text;
 }
 
@@ -48,7 +49,8 @@ bool is_there(const fs::path& input, const fs::path& output, const DecomposeFile
 
 }  // namespace
 
-MatcapDecomposition decompose_file(const fs::path& input, const fs::path& output, const DecomposeFileOptions& options) {
+MatcapDecomposition decompose_file(const fs::path& input, const fs::path& output,
+                                   const DecomposeFileOptions& options) {
   const MatcapPicture picture = read_matcap_picture(input, options.disc);
   MatcapDecomposition matcap = decompose(picture.image, picture.disc, options.decompose, input.string());
   matcap.provenance = provenance_of(input, options);
@@ -57,7 +59,8 @@ MatcapDecomposition decompose_file(const fs::path& input, const fs::path& output
 }
 
 std::vector<BatchEntry> decompose_files(std::span<const fs::path> inputs, const fs::path& folder,
-                                        const DecomposeFileOptions& options, bool anew, const Progress& progress) {
+                                        const DecomposeFileOptions& options, bool anew,
+                                        const Progress& progress) {
   std::vector<BatchEntry> entries;
   std::set<fs::path> names;
   for (const fs::path& input : inputs) {

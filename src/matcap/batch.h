@@ -31,10 +31,13 @@ struct BatchEntry {
   std::string failure;  ///< empty: it worked
 };
 
-/// Decomposes `inputs` into `folder` as NAME.ktx2, in parallel. Outputs that are already there for the same input (name,
-/// size) and options stay as they are unless `anew`: an interrupted run goes on where it stopped. An input that fails
-/// does not stop the others. Throws Error when two inputs have the same name or the folder cannot be made.
-std::vector<BatchEntry> decompose_files(std::span<const std::filesystem::path> inputs, const std::filesystem::path& folder,
-                                        const DecomposeFileOptions& options, bool anew, const Progress& progress = {});
+/// Decomposes `inputs` into `folder` as NAME.ktx2, in parallel. Outputs that are already there for the same
+/// input (name, size) and options stay as they are unless `anew`: an interrupted run goes on where it
+/// stopped. An input that fails does not stop the others. Throws Error when two inputs have the same name or
+/// the folder cannot be made.
+std::vector<BatchEntry> decompose_files(std::span<const std::filesystem::path> inputs,
+                                        const std::filesystem::path& folder,
+                                        const DecomposeFileOptions& options, bool anew,
+                                        const Progress& progress = {});
 
 }  // namespace sateen

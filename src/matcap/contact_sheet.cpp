@@ -23,18 +23,27 @@ namespace fs = std::filesystem;
 
 constexpr int kTile = 128;
 constexpr double kTurn = 50;  // degrees
-constexpr const char* kTiles[] = {"MatCap",    "low",        "high",      "low front",       "low back",
+constexpr const char* kTiles[] = {"MatCap",     "low",       "high",       "low front",   "low back",
                                   "high front", "high back", "light left", "light right", "light from above"};
 
 std::string escaped(const std::string& text) {
   std::string result;
   for (const char c : text) {
     switch (c) {
-      case '&': result += "&amp;"; break;
-      case '<': result += "&lt;"; break;
-      case '>': result += "&gt;"; break;
-      case '"': result += "&quot;"; break;
-      default: result += c;
+      case '&':
+        result += "&amp;";
+        break;
+      case '<':
+        result += "&lt;";
+        break;
+      case '>':
+        result += "&gt;";
+        break;
+      case '"':
+        result += "&quot;";
+        break;
+      default:
+        result += c;
     }
   }
   return result;
@@ -45,7 +54,8 @@ std::string url_of(const std::string& name) {
   std::string result;
   for (const char c : name) {
     const auto byte = static_cast<unsigned char>(c);
-    const bool plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' || c == '_' || c == '.';
+    const bool plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
+                       c == '-' || c == '_' || c == '.';
     result += plain ? std::string(1, c) : fmt::format("%{:02X}", byte);
   }
   return result;
@@ -102,7 +112,9 @@ std::string describe(const MatcapPart& part, const char* name) {
 
 std::string row_of(const fs::path& folder, const BatchEntry& entry) {
   const std::string name = entry.output.stem().string();
-  if (!entry.failure.empty()) return fmt::format("<section class=\"failed\"><h2>{}</h2><p>{}</p></section>\n", escaped(name), escaped(entry.failure));
+  if (!entry.failure.empty())
+    return fmt::format("<section class=\"failed\"><h2>{}</h2><p>{}</p></section>\n", escaped(name),
+                       escaped(entry.failure));
   const MatcapDecomposition matcap = read_matcap(entry.output);
   const fs::path strip = folder / "sheet" / (name + ".png");
   std::error_code code;
@@ -119,10 +131,13 @@ std::string row_of(const fs::path& folder, const BatchEntry& entry) {
 
 }  // namespace
 
-void write_contact_sheet(const fs::path& folder, std::span<const BatchEntry> entries, const Progress& progress) {
+void write_contact_sheet(const fs::path& folder, std::span<const BatchEntry> entries,
+                         const Progress& progress) {
   std::error_code code;
   fs::create_directories(folder / "sheet", code);
-  if (code) throw Error(fmt::format("{}: the folder cannot be made: {}", (folder / "sheet").string(), code.message()));
+  if (code)
+    throw Error(
+        fmt::format("{}: the folder cannot be made: {}", (folder / "sheet").string(), code.message()));
   std::vector<std::string> rows(entries.size());
   std::atomic<int> done = 0;
   const int count = static_cast<int>(entries.size());
@@ -131,9 +146,12 @@ void write_contact_sheet(const fs::path& folder, std::span<const BatchEntry> ent
     report(progress, static_cast<double>(++done) / count);
   });
   std::string html =
-      "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>Decomposed MatCaps</title>\n<style>"
-      "body{background:#1b1b1b;color:#ddd;font:14px sans-serif;margin:1em}h2{font-size:1em;margin:1.2em 0 .3em}"
-      "p{margin:.3em 0;color:#aaa}.failed{color:#f88}header{display:flex;position:sticky;top:0;background:#1b1b1b}"
+      "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>Decomposed "
+      "MatCaps</title>\n<style>"
+      "body{background:#1b1b1b;color:#ddd;font:14px sans-serif;margin:1em}h2{font-size:1em;margin:1.2em 0 "
+      ".3em}"
+      "p{margin:.3em "
+      "0;color:#aaa}.failed{color:#f88}header{display:flex;position:sticky;top:0;background:#1b1b1b}"
       "header span{width:128px}img{display:block;max-width:none}</style></head><body>\n<header>";
   for (const char* tile : kTiles) html += fmt::format("<span>{}</span>", tile);
   html += "</header>\n";

@@ -15,8 +15,8 @@ struct MatcapPicture {
   Disc disc;
 };
 
-/// Reads any picture; the sphere is found unless `disc` says where it is. Throws Error naming the file when it cannot be
-/// read, is animated, CMYK or not finite, or when it shows no sphere or `disc` does not fit.
+/// Reads any picture; the sphere is found unless `disc` says where it is. Throws Error naming the file when
+/// it cannot be read, is animated, CMYK or not finite, or when it shows no sphere or `disc` does not fit.
 MatcapPicture read_matcap_picture(const std::filesystem::path& path, const std::optional<Disc>& disc = {});
 
 }  // namespace sateen

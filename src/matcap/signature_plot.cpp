@@ -21,7 +21,9 @@ struct Axis {
   double most;
   double begin;
   double end;
-  double operator()(double v) const { return begin + (end - begin) * std::log(v / least) / std::log(most / least); }
+  double operator()(double v) const {
+    return begin + (end - begin) * std::log(v / least) / std::log(most / least);
+  }
 };
 
 std::string ticks(const Axis& x, const Axis& y) {
@@ -30,18 +32,20 @@ std::string ticks(const Axis& x, const Axis& y) {
     for (const double step : {1.0, 3.0}) {
       const double v = decade * step;
       if (v >= y.least && v <= y.most) {
-        svg += fmt::format("<path d=\"M{:.1f} {:.1f}H{:.1f}\" stroke=\"#ddd\"/><text x=\"{:.1f}\" y=\"{:.1f}\" "
-                           "text-anchor=\"end\">{:g}</text>\n",
-                           x.begin, y(v), x.end, x.begin - 6, y(v) + 4, v);
+        svg += fmt::format(
+            "<path d=\"M{:.1f} {:.1f}H{:.1f}\" stroke=\"#ddd\"/><text x=\"{:.1f}\" y=\"{:.1f}\" "
+            "text-anchor=\"end\">{:g}</text>\n",
+            x.begin, y(v), x.end, x.begin - 6, y(v) + 4, v);
       }
     }
   }
   for (const double angle : {1.0, 2.0, 5.0, 10.0, 20.0, 45.0, 90.0}) {
     const double v = radians(angle);
     if (v < x.least || v > x.most * 1.0001) continue;
-    svg += fmt::format("<path d=\"M{:.1f} {:.1f}V{:.1f}\" stroke=\"#ddd\"/><text x=\"{:.1f}\" y=\"{:.1f}\" "
-                       "text-anchor=\"middle\">{:g}&#176;</text>\n",
-                       x(v), y.begin, y.end, x(v), y.begin + 18, angle);
+    svg += fmt::format(
+        "<path d=\"M{:.1f} {:.1f}V{:.1f}\" stroke=\"#ddd\"/><text x=\"{:.1f}\" y=\"{:.1f}\" "
+        "text-anchor=\"middle\">{:g}&#176;</text>\n",
+        x(v), y.begin, y.end, x(v), y.begin + 18, angle);
   }
   return svg;
 }
@@ -56,7 +60,8 @@ std::string curve(const LabelledEstimate& labelled, const Axis& x, const Axis& y
     if (shown) path += fmt::format("{}{:.1f} {:.1f}", drawing ? 'L' : 'M', x(s.eps[i]), y(s.variance[i]));
     drawing = shown;
   }
-  std::string svg = fmt::format("<path d=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"2\"/>\n", path, colour);
+  std::string svg =
+      fmt::format("<path d=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"2\"/>\n", path, colour);
   if (s.chosen) {
     svg += fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"5\" fill=\"{}\"/>\n", x(s.eps[*s.chosen]),
                        y(s.variance[*s.chosen]), colour);
@@ -91,11 +96,13 @@ std::string signature_svg(std::span<const LabelledEstimate> curves) {
       kWidth, kHeight);
   svg += ticks(x, y);
   for (std::size_t i = 0; i < curves.size(); ++i) svg += curve(curves[i], x, y, i);
-  svg += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"middle\">half width of the window</text>\n",
-                     (x.begin + x.end) / 2, kHeight - 18);
-  svg += fmt::format("<text transform=\"translate(14 {:.1f}) rotate(-90)\" text-anchor=\"middle\">variance, "
-                     "radians&#178;</text>\n</svg>\n",
-                     (y.begin + y.end) / 2);
+  svg +=
+      fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"middle\">half width of the window</text>\n",
+                  (x.begin + x.end) / 2, kHeight - 18);
+  svg += fmt::format(
+      "<text transform=\"translate(14 {:.1f}) rotate(-90)\" text-anchor=\"middle\">variance, "
+      "radians&#178;</text>\n</svg>\n",
+      (y.begin + y.end) / 2);
   return svg;
 }
 

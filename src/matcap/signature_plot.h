@@ -14,7 +14,8 @@ struct LabelledEstimate {
   FilterEstimate estimate;
 };
 
-/// Signatures as in Figure 4, as SVG text: variance over window size, both logarithmic, the chosen window marked.
+/// Signatures as in Figure 4, as SVG text: variance over window size, both logarithmic, the chosen window
+/// marked.
 std::string signature_svg(std::span<const LabelledEstimate> curves);
 
 }  // namespace sateen
