@@ -17,6 +17,11 @@ void add_capture_build(CLI::App& parent);
 void add_maps_aniso_author(CLI::App& parent);
 void add_maps_aniso_decode(CLI::App& parent);
 void add_maps_aniso_filter(CLI::App& parent);
+void add_matcap_bake(CLI::App& parent);
+void add_matcap_decompose(CLI::App& parent);
+void add_matcap_estimate(CLI::App& parent);
+void add_matcap_info(CLI::App& parent);
+void add_matcap_separate(CLI::App& parent);
 void add_render(CLI::App& parent);
 void add_shade(CLI::App& parent);
 

@@ -79,6 +79,12 @@ void add_commands(CLI::App& app) {
   CLI::App& brdf = add_noun(app, "brdf", "Reflectance models: evaluate, plot");
   add_brdf_eval(brdf);
   add_brdf_plot(brdf);
+  CLI::App& matcap = add_noun(app, "matcap", "MatCap decomposition: turn the light, change the material");
+  add_matcap_separate(matcap);
+  add_matcap_estimate(matcap);
+  add_matcap_decompose(matcap);
+  add_matcap_info(matcap);
+  add_matcap_bake(matcap);
   add_render(app);
   add_shade(app);
   CLI::App& maps = add_noun(app, "maps", "Texture maps: author, filter, compress");

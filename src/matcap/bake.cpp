@@ -24,7 +24,8 @@ Image over_picture(const MatcapDecomposition& matcap, const Shade& shade) {
   parallel_for(image.height, [&](int y) {
     for (int x = 0; x < image.width; ++x) {
       Vec2 p = disc_point(matcap.disc, x + 0.5, y + 0.5);
-      // The outermost pixel centres lie about half a pixel inside the rim; beyond, no pixel of the input was seen.
+      // The outermost pixel centres lie about half a pixel inside the rim; beyond, no pixel of the input was
+      // seen.
       const double reach = 1 - 0.5 / matcap.disc.radius;
       if (p.squaredNorm() >= 1) p *= reach / p.norm();
       image.set_rgb(x, y, shade(normal_on_disc(p)).template cast<float>());
@@ -49,7 +50,8 @@ std::array<Image, 2> bake_layers(const EditedMatcap& matcap) {
 Vec3 direction_of_environment(int x, int y, int height) {
   const double longitude = 2 * kPi * ((x + 0.5) / (2 * height) - 0.5);
   const double latitude = kPi * (0.5 - (y + 0.5) / height);
-  return {std::cos(latitude) * std::sin(longitude), std::sin(latitude), -std::cos(latitude) * std::cos(longitude)};
+  return {std::cos(latitude) * std::sin(longitude), std::sin(latitude),
+          -std::cos(latitude) * std::cos(longitude)};
 }
 
 Image bake_environment(const EditedMatcap& matcap, Part part, int height) {

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "sateen/matcap/blind_spot.h"
 
+#include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <cmath>
 #include <vector>
-
-#include <Eigen/SparseCholesky>
 
 #include "sateen/matcap/sphere_map.h"
 
@@ -13,9 +12,9 @@ namespace sateen {
 namespace {
 
 constexpr int kSpokes = 192;
-constexpr int kRings = 40;        // the last one is the boundary
-constexpr double kGuideFade = 6;  // the guiding gradient falls like (r / radius)^6
-constexpr double kSlopeSpan = 0.1;  // radians over which the slope at the boundary is measured
+constexpr int kRings = 40;                // the last one is the boundary
+constexpr double kGuideFade = 6;          // the guiding gradient falls like (r / radius)^6
+constexpr double kSlopeSpan = 0.1;        // radians over which the slope at the boundary is measured
 constexpr double kSlopeSmoothing = 0.35;  // radians of azimuth
 
 using Matrix = Eigen::SparseMatrix<double>;
@@ -25,7 +24,8 @@ Eigen::Index at(int ring, int spoke) {  // ring 1 .. kRings
 }
 
 /// Slopes of the colours towards the centre, per unit of ring distance, smoothed along the boundary.
-Eigen::MatrixXd boundary_slopes(const Eigen::MatrixXd& edge, const Eigen::MatrixXd& outside, double rings_between) {
+Eigen::MatrixXd boundary_slopes(const Eigen::MatrixXd& edge, const Eigen::MatrixXd& outside,
+                                double rings_between) {
   const Eigen::MatrixXd raw = (outside - edge) / rings_between;
   Eigen::MatrixXd smooth = Eigen::MatrixXd::Zero(3, kSpokes);
   const double sigma = kSlopeSmoothing * kSpokes / (2 * kPi);
@@ -42,7 +42,8 @@ Eigen::MatrixXd boundary_slopes(const Eigen::MatrixXd& edge, const Eigen::Matrix
   return smooth;
 }
 
-/// Finite volumes on rings of spacing 1 and a round cell at the centre: the negated Laplacian of the inner unknowns.
+/// Finite volumes on rings of spacing 1 and a round cell at the centre: the negated Laplacian of the inner
+/// unknowns.
 Matrix laplacian() {
   std::vector<Eigen::Triplet<double>> entries;
   const double turn = 2 * kPi / kSpokes;

@@ -72,9 +72,10 @@ DecomposedAppearance::DecomposedAppearance(EditedMatcap matcap, ModulationMaps m
   const int low_size = matcap_.matcap[Part::low].map.levels.front().size();
   const int high_size = matcap_.matcap[Part::high].map.levels.front().size();
   if (low != high || low_size != high_size) {
-    throw Error(fmt::format("the mixed MatCaps have maps of different sizes, {} and {} texels; decompose them with the "
-                            "same map size",
-                            low_size, high_size));
+    throw Error(fmt::format(
+        "the mixed MatCaps have maps of different sizes, {} and {} texels; decompose them with the "
+        "same map size",
+        low_size, high_size));
   }
 }
 
@@ -85,9 +86,10 @@ std::unique_ptr<Appearance> DecomposedAppearance::read(const fs::path& path) {
 std::unique_ptr<Appearance> DecomposedAppearance::read_material(const fs::path& path) {
   const json material = json::parse(read_text(path), nullptr, false);
   if (!material.is_object() || !material.contains("matcap") || !material["matcap"].is_string()) {
-    throw Error(fmt::format("{}: \"matcap\" is needed, the name of a decomposed MatCap (.ktx2)", path.string()));
+    throw Error(
+        fmt::format("{}: \"matcap\" is needed, the name of a decomposed MatCap (.ktx2)", path.string()));
   }
-  static const std::set<std::string> known{"model",     "matcap",    "edits",          "low_color",
+  static const std::set<std::string> known{"model",      "matcap",    "edits",           "low_color",
                                            "high_color", "roughness", "roughness_scale", "occlusion"};
   for (const auto& [key, value] : material.items()) {
     if (!known.contains(key)) throw Error(fmt::format("{}: the key \"{}\" is unknown", path.string(), key));
@@ -99,23 +101,26 @@ std::unique_ptr<Appearance> DecomposedAppearance::read_material(const fs::path& 
                                                 : std::vector<Edit>{};
   const auto picture = [&](const char* key) -> fs::path {
     if (!material.contains(key)) return {};
-    if (!material[key].is_string()) throw Error(fmt::format("{}: \"{}\" must name a picture", path.string(), key));
+    if (!material[key].is_string())
+      throw Error(fmt::format("{}: \"{}\" must name a picture", path.string(), key));
     return folder / material[key].get<std::string>();
   };
   ModulationMaps maps;
-  if (const fs::path file = picture("low_color"); !file.empty()) maps.low_color = to_add_up_space(read_image(file), space);
-  if (const fs::path file = picture("high_color"); !file.empty()) maps.high_color = to_add_up_space(read_image(file), space);
+  if (const fs::path file = picture("low_color"); !file.empty())
+    maps.low_color = to_add_up_space(read_image(file), space);
+  if (const fs::path file = picture("high_color"); !file.empty())
+    maps.high_color = to_add_up_space(read_image(file), space);
   if (const fs::path file = picture("roughness"); !file.empty()) maps.roughness = read_data(file);
   if (const fs::path file = picture("occlusion"); !file.empty()) maps.occlusion = read_data(file);
   if (material.contains("roughness_scale")) {
     const json& scale = material["roughness_scale"];
     if (!scale.is_number() || !(scale.get<double>() >= 0 && scale.get<double>() <= kFlattest)) {
-      throw Error(fmt::format("{}: \"roughness_scale\" must be a variance in radians^2, from 0 to {}", path.string(),
-                              kFlattest));
+      throw Error(fmt::format("{}: \"roughness_scale\" must be a variance in radians^2, from 0 to {}",
+                              path.string(), kFlattest));
     }
     maps.roughness_scale = scale;
   }
-  return std::make_unique<DecomposedAppearance>(apply(std::move(matcap), edits), std::move(maps));
+  return std::make_unique<DecomposedAppearance>(apply_edits(std::move(matcap), edits), std::move(maps));
 }
 
 Vec3 DecomposedAppearance::evaluate(const Surface& surface) const {

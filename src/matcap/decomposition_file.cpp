@@ -38,7 +38,8 @@ json to_json(const MatcapPart& part) {
 double finite(const fs::path& path, const json& value, const char* key, double least, double most) {
   const double number = value.at(key);
   if (!(number >= least && number <= most)) {
-    fail(path, fmt::format("the parameters say '{}' is {}; it must be within {} and {}", key, number, least, most));
+    fail(path,
+         fmt::format("the parameters say '{}' is {}; it must be within {} and {}", key, number, least, most));
   }
   return number;
 }
@@ -48,14 +49,16 @@ MatcapPart part_from_json(const fs::path& path, const json& value, std::size_t l
   part.variance = finite(path, value, "variance", 0, kFlattest);
   part.measured = value.value("measured", false);
   part.feature = value.value("feature", "line") == "edge" ? Feature::edge : Feature::line;
-  for (const json& r : value.value("regions", json::array())) part.regions.push_back({r.at(0), r.at(1), r.at(2), r.at(3)});
+  for (const json& r : value.value("regions", json::array()))
+    part.regions.push_back({r.at(0), r.at(1), r.at(2), r.at(3)});
   for (int c = 0; c < 3; ++c) {
     part.base_color[c] = value.at("base_color").at(static_cast<std::size_t>(c));
     if (!(part.base_color[c] > 0 && part.base_color[c] < 1e6)) fail(path, "a base colour is not positive");
   }
   part.map.variances = value.at("map_variances").get<std::vector<double>>();
   if (part.map.variances.size() != levels || part.map.variances[0] != 0) {
-    fail(path, fmt::format("'map_variances' must have one entry for each of the {} mip levels, the first 0", levels));
+    fail(path, fmt::format("'map_variances' must have one entry for each of the {} mip levels, the first 0",
+                           levels));
   }
   for (std::size_t i = 1; i < levels; ++i) {
     if (!(part.map.variances[i] > part.map.variances[i - 1])) fail(path, "'map_variances' must increase");
@@ -119,11 +122,11 @@ MatcapDecomposition read_matcap(const fs::path& path) {
     fail(path, "is a KTX2 texture but no decomposed MatCap; \"sateen matcap decompose\" makes one");
   }
   if (entry("sateen.version") != std::to_string(kMatcapFileVersion)) {
-    fail(path, fmt::format("follows version '{}' of the file's conventions; this program knows {}", entry("sateen.version"),
-                           kMatcapFileVersion));
+    fail(path, fmt::format("follows version '{}' of the file's conventions; this program knows {}",
+                           entry("sateen.version"), kMatcapFileVersion));
   }
-  if (texture.layers != kLayers || texture.depth != 0 || texture.faces != 1 || texture.width != texture.height ||
-      texture.width < 2 || texture.format != VkFormat::rgba16_sfloat) {
+  if (texture.layers != kLayers || texture.depth != 0 || texture.faces != 1 ||
+      texture.width != texture.height || texture.width < 2 || texture.format != VkFormat::rgba16_sfloat) {
     fail(path, "a decomposed MatCap has four square layers of half floats; this texture has not");
   }
   MatcapDecomposition matcap;

@@ -34,7 +34,8 @@ Vec3 evaluate_part(const EditedMatcap& matcap, Part which, const Vec3& n, const 
 }
 
 Vec3 evaluate(const EditedMatcap& matcap, const Vec3& n, const Modulation& modulation) {
-  Vec3 sum = evaluate_part(matcap, Part::low, n, modulation) + evaluate_part(matcap, Part::high, n, modulation);
+  Vec3 sum =
+      evaluate_part(matcap, Part::low, n, modulation) + evaluate_part(matcap, Part::high, n, modulation);
   if (matcap.matcap.space == AddUpSpace::display) {
     for (double& v : sum) v = srgb_decode(static_cast<float>(v));
   }

@@ -75,9 +75,10 @@ class Replay {
   void operator()(const Mix& edit) {
     MatcapDecomposition other = read_matcap(edit.from);
     if (other.space != state_.matcap.space) {
-      throw Error(fmt::format("{}: its parts add up in another space (display or linear) than those of the MatCap it is "
-                              "mixed with",
-                              edit.from.string()));
+      throw Error(fmt::format(
+          "{}: its parts add up in another space (display or linear) than those of the MatCap it is "
+          "mixed with",
+          edit.from.string()));
     }
     MatcapPart& part = state_.matcap[edit.part];
     part = std::move(other[edit.part]);
@@ -149,7 +150,7 @@ Vec3 main_highlight(const MatcapDecomposition& matcap) {
   return brightest;
 }
 
-EditedMatcap apply(MatcapDecomposition matcap, const std::vector<Edit>& edits) {
+EditedMatcap apply_edits(MatcapDecomposition matcap, const std::vector<Edit>& edits) {
   Replay replay(std::move(matcap));
   for (const Edit& edit : edits) std::visit(replay, edit);
   return replay.finish();

@@ -19,16 +19,18 @@ struct Turn {
   Vec3 angles{0, 0, 0};  ///< radians about x, then y, then z
 };
 
-/// Turns the light by the smallest rotation that brings the main highlight of the high part to a point of the sphere.
+/// Turns the light by the smallest rotation that brings the main highlight of the high part to a point of the
+/// sphere.
 struct Align {
   Vec2 to{0, 0};  ///< disc point
 };
 
-/// A painted reflection. It stays with the light under later turns, and its blur follows later changes of roughness.
+/// A painted reflection. It stays with the light under later turns, and its blur follows later changes of
+/// roughness.
 struct Paint {
   Part part = Part::high;
-  Vec2 at{0, 0};     ///< disc point: (x, y) of the eye-frame normal where it shall be seen
-  double turn = 0;   ///< radians, counter-clockwise
+  Vec2 at{0, 0};    ///< disc point: (x, y) of the eye-frame normal where it shall be seen
+  double turn = 0;  ///< radians, counter-clockwise
   Footprint footprint;
   Vec3 color{1, 1, 1};  ///< white-balanced: the part's base colour multiplies it
 };
@@ -43,7 +45,8 @@ struct Bitmap {
   Vec3 color{1, 1, 1};
 };
 
-/// Changes the variance of a part's filter: blur for rougher, deconvolution for shinier looks. The slope follows.
+/// Changes the variance of a part's filter: blur for rougher, deconvolution for shinier looks. The slope
+/// follows.
 struct Roughness {
   Part part = Part::high;
   bool absolute = false;  ///< `variance` is the new one, not a change
@@ -76,16 +79,17 @@ struct Mix {
 
 using Edit = std::variant<Turn, Align, Paint, Bitmap, Roughness, Recolor, Intensity, SetSilhouette, Mix>;
 
-/// Reads a JSON list of edits; files named in it are found beside `folder`. Throws Error naming `name`, the edit's number
-/// and the key for anything unknown, missing, or out of range.
-std::vector<Edit> parse_edits(const std::string& json, const std::filesystem::path& folder, const std::string& name);
+/// Reads a JSON list of edits; files named in it are found beside `folder`. Throws Error naming `name`, the
+/// edit's number and the key for anything unknown, missing, or out of range.
+std::vector<Edit> parse_edits(const std::string& json, const std::filesystem::path& folder,
+                              const std::string& name);
 
 /// parse_edits of a file.
 std::vector<Edit> read_edits(const std::filesystem::path& path);
 
-/// Replays the edits. Throws Error when a file cannot be read, MatCaps to mix add up in different spaces, or a part would
-/// become sharper than a mirror.
-EditedMatcap apply(MatcapDecomposition matcap, const std::vector<Edit>& edits);
+/// Replays the edits. Throws Error when a file cannot be read, MatCaps to mix add up in different spaces, or
+/// a part would become sharper than a mirror.
+EditedMatcap apply_edits(MatcapDecomposition matcap, const std::vector<Edit>& edits);
 
 /// The direction of the brightest, slightly blurred light of the high part, before any turn.
 Vec3 main_highlight(const MatcapDecomposition& matcap);

@@ -43,7 +43,8 @@ class Keys {
     left_.erase(key);
     if (!has(key)) return standard;
     const json& value = object_[key];
-    if (!value.is_array() || value.size() != N) fail(fmt::format("\"{}\" must be a list of {} numbers", key, N));
+    if (!value.is_array() || value.size() != N)
+      fail(fmt::format("\"{}\" must be a list of {} numbers", key, N));
     Eigen::Matrix<double, N, 1> result;
     for (int i = 0; i < N; ++i) result[i] = checked(value[static_cast<std::size_t>(i)], key, least, most);
     return result;
@@ -62,7 +63,8 @@ class Keys {
 
   Part part() {
     const std::string name = text("part");
-    if (name != "low" && name != "high") fail(fmt::format("\"part\" is \"{}\"; it must be low or high", name));
+    if (name != "low" && name != "high")
+      fail(fmt::format("\"part\" is \"{}\"; it must be low or high", name));
     return name == "low" ? Part::low : Part::high;
   }
 
@@ -73,7 +75,8 @@ class Keys {
     return point;
   }
 
-  double angle(const std::string& key, double standard_degrees, double least = -kInfinity, double most = kInfinity) {
+  double angle(const std::string& key, double standard_degrees, double least = -kInfinity,
+               double most = kInfinity) {
     return radians(number(key, standard_degrees, least, most));
   }
 
@@ -113,7 +116,8 @@ Edit parse_paint(Keys& keys) {
     paint.footprint.size = Vec2::Constant(keys.angle("size", 5, 0.01, 90));
   } else if (shape == "box") {
     paint.footprint.shape = Footprint::Shape::box;
-    paint.footprint.size = keys.vector<2>("size", Vec2(10, 10), 0.01, 180) * (kPi / 360);  // full size in degrees to half
+    paint.footprint.size =
+        keys.vector<2>("size", Vec2(10, 10), 0.01, 180) * (kPi / 360);  // full size in degrees to half
   } else {
     keys.fail(fmt::format("\"shape\" is \"{}\"; it must be gaussian or box", shape));
   }
@@ -135,7 +139,8 @@ Edit parse_bitmap(Keys& keys) {
 Edit parse_roughness(Keys& keys) {
   const Part part = keys.part();
   if (keys.has("add") == keys.has("degrees")) {
-    keys.fail("needs either \"add\", a variance in radians^2, or \"degrees\", the filter's new standard deviation");
+    keys.fail(
+        "needs either \"add\", a variance in radians^2, or \"degrees\", the filter's new standard deviation");
   }
   if (keys.has("add")) return Roughness{part, false, keys.number("add", 0, -kFlattest, kFlattest)};
   const double deviation = keys.angle("degrees", 0, 0.2, 52);
@@ -160,9 +165,10 @@ Edit parse_edit(Keys& keys) {
                           keys.number("alpha1", 1, -100, 100)}};
   }
   if (kind == "mix") return Mix{keys.part(), keys.file("from")};
-  keys.fail(fmt::format("\"{}\" is unknown; known are turn, align, paint, bitmap, roughness, color, intensity, "
-                        "silhouette and mix",
-                        kind));
+  keys.fail(
+      fmt::format("\"{}\" is unknown; known are turn, align, paint, bitmap, roughness, color, intensity, "
+                  "silhouette and mix",
+                  kind));
 }
 
 }  // namespace
@@ -174,7 +180,8 @@ std::vector<Edit> parse_edits(const std::string& text, const fs::path& folder, c
   } catch (const json::exception& error) {
     throw Error(fmt::format("{}: is no JSON: {}", name, error.what()));
   }
-  if (!list.is_array()) throw Error(name + ": is no list of edits; [{\"edit\": \"turn\", ...}, ...] is needed");
+  if (!list.is_array())
+    throw Error(name + ": is no list of edits; [{\"edit\": \"turn\", ...}, ...] is needed");
   std::vector<Edit> edits;
   for (std::size_t i = 0; i < list.size(); ++i) {
     Keys keys(list[i], folder, fmt::format("{}: edit {}", name, i + 1));

@@ -14,13 +14,13 @@
 namespace sateen {
 namespace {
 
-constexpr double kSmallestWindow = 6;    // pixels at the middle of the sphere
-constexpr double kContrast = 0.2;        // of the brightest value: how far a feature must stand out
-constexpr double kShapeSlack = 0.08;     // of an edge's step: how far it may be from a blurred edge
-constexpr double kPlateauSlack = 0.15;   // of an edge's step: how much the plateaus beside it may change
+constexpr double kSmallestWindow = 6;   // pixels at the middle of the sphere
+constexpr double kContrast = 0.2;       // of the brightest value: how far a feature must stand out
+constexpr double kShapeSlack = 0.08;    // of an edge's step: how far it may be from a blurred edge
+constexpr double kPlateauSlack = 0.15;  // of an edge's step: how much the plateaus beside it may change
 constexpr int kMeridians = 72;
-constexpr double kNearRim = 1.35;        // radians: beyond, too little of the sphere is seen to measure
-constexpr std::size_t kMostPixels = 256; // of a region that are looked at
+constexpr double kNearRim = 1.35;         // radians: beyond, too little of the sphere is seen to measure
+constexpr std::size_t kMostPixels = 256;  // of a region that are looked at
 
 /// Something measured at one point of the sphere.
 struct Measured {
@@ -46,8 +46,9 @@ double value_at(const MeridianProfile& p, double theta) {
   return p.values[static_cast<std::size_t>(at + 0.5)];
 }
 
-/// Whether the profile at theta is a step between two plateaus with the shape of a blurred edge of standard deviation
-/// `s`, and neither a slope nor the flank of a bump: their derivatives would pass for a sharper material.
+/// Whether the profile at theta is a step between two plateaus with the shape of a blurred edge of standard
+/// deviation `s`, and neither a slope nor the flank of a bump: their derivatives would pass for a sharper
+/// material.
 bool is_step(const MeridianProfile& profile, double theta, double direction, double s, double brightest) {
   if (std::abs(theta) + 5 * s > kPi / 2) return false;
   const auto at = [&](double t) { return value_at(profile, theta + direction * t * s); };
@@ -56,13 +57,14 @@ bool is_step(const MeridianProfile& profile, double theta, double direction, dou
   if (change < kContrast * brightest) return false;
   for (double t = -5; t <= 5; t += 0.5) {
     const double expected = 0.5 * std::erfc(-t / std::sqrt(2.0));
-    if (std::abs((at(t) - dark) / change - expected) > (std::abs(t) > 3 ? kPlateauSlack : kShapeSlack)) return false;
+    if (std::abs((at(t) - dark) / change - expected) > (std::abs(t) > 3 ? kPlateauSlack : kShapeSlack))
+      return false;
   }
   return true;
 }
 
-/// Whether the profile at theta falls on both sides as a bump of standard deviation `s` does. What the rim cuts off
-/// cannot speak against it.
+/// Whether the profile at theta falls on both sides as a bump of standard deviation `s` does. What the rim
+/// cuts off cannot speak against it.
 bool is_bump(const MeridianProfile& profile, double theta, double s, double brightest) {
   int seen = 0;
   for (const double way : {-1.0, 1.0}) {
@@ -74,26 +76,28 @@ bool is_bump(const MeridianProfile& profile, double theta, double s, double brig
   return seen > 0;
 }
 
-std::optional<Measured> measure(const MeridianProfile& profile, double theta, double azimuth, double smallest) {
+std::optional<Measured> measure(const MeridianProfile& profile, double theta, double azimuth,
+                                double smallest) {
   Signature s = signature(profile, theta, smallest);
   if (!s.chosen) return std::nullopt;
   return Measured{s.variance[*s.chosen], Feature::line, theta, azimuth, std::move(s)};
 }
 
-std::optional<Measured> measure_line(const MeridianProfile& profile, double theta, double azimuth, double smallest,
-                                     double brightest) {
+std::optional<Measured> measure_line(const MeridianProfile& profile, double theta, double azimuth,
+                                     double smallest, double brightest) {
   auto measured = measure(profile, theta, azimuth, smallest);
   if (measured && !is_bump(profile, theta, std::sqrt(measured->variance), brightest)) measured.reset();
   return measured;
 }
 
-std::optional<Measured> measure_edge(const MeridianProfile& profile, const MeridianProfile& slope, double theta,
-                                     double azimuth, double smallest, double brightest) {
+std::optional<Measured> measure_edge(const MeridianProfile& profile, const MeridianProfile& slope,
+                                     double theta, double azimuth, double smallest, double brightest) {
   MeridianProfile rising = slope;
   const double direction = value_at(slope, theta) < 0 ? -1 : 1;
   for (double& v : rising.values) v = std::max(0.0, direction * v);
   auto measured = measure(rising, theta, azimuth, smallest);
-  if (!measured || !is_step(profile, theta, direction, std::sqrt(measured->variance), brightest)) return std::nullopt;
+  if (!measured || !is_step(profile, theta, direction, std::sqrt(measured->variance), brightest))
+    return std::nullopt;
   measured->feature = Feature::edge;
   return measured;
 }
@@ -114,7 +118,8 @@ FilterEstimate concluded(const std::optional<Measured>& best, double fallback, c
 }
 
 /// Ridges and edges of one meridian that stand out, measured.
-std::vector<Measured> candidates_on(const Image& intensity, const Disc& disc, double azimuth, double brightest) {
+std::vector<Measured> candidates_on(const Image& intensity, const Disc& disc, double azimuth,
+                                    double brightest) {
   std::vector<Measured> found;
   const double smallest = kSmallestWindow / disc.radius;
   const MeridianProfile profile = meridian_profile(intensity, disc, azimuth);
@@ -153,7 +158,8 @@ std::vector<Measured> candidates_on(const Image& intensity, const Disc& disc, do
     }
     const double sign = slope.values[i] < 0 ? -1 : 1;
     if (peak(slope.values, i, sign) && steps_at_some_scale(theta, sign)) {
-      if (auto m = measure_edge(profile, slope, theta, azimuth, smallest, brightest)) found.push_back(std::move(*m));
+      if (auto m = measure_edge(profile, slope, theta, azimuth, smallest, brightest))
+        found.push_back(std::move(*m));
     }
   }
   return found;
@@ -182,7 +188,8 @@ FilterEstimate estimate_filter(const Image& component, const Disc& disc, const s
   for (const Region& region : regions) {
     std::vector<Vec2> points;
     const double area = static_cast<double>(region.width) * region.height;
-    const int stride = std::max(1, static_cast<int>(std::ceil(std::sqrt(area / static_cast<double>(kMostPixels)))));
+    const int stride =
+        std::max(1, static_cast<int>(std::ceil(std::sqrt(area / static_cast<double>(kMostPixels)))));
     for (int y = region.y; y < region.y + region.height; y += stride) {
       for (int x = region.x; x < region.x + region.width; x += stride) {
         if (x >= 0 && y >= 0 && x < component.width && y < component.height && on_disc(disc, x, y)) {
@@ -191,8 +198,8 @@ FilterEstimate estimate_filter(const Image& component, const Disc& disc, const s
       }
     }
     if (points.empty()) {
-      throw Error(fmt::format("{}: the region of interest {},{},{},{} has no pixel on the sphere", name, region.x,
-                              region.y, region.width, region.height));
+      throw Error(fmt::format("{}: the region of interest {},{},{},{} has no pixel on the sphere", name,
+                              region.x, region.y, region.width, region.height));
     }
     std::vector<std::optional<Measured>> found(points.size());
     parallel_for(static_cast<int>(points.size()), [&](int i) {
@@ -227,7 +234,8 @@ FilterEstimate estimate_filter(const Image& component, const Disc& disc, double 
   for (auto& row : rows) std::ranges::move(row, std::back_inserter(all));
   std::ranges::stable_sort(all, {}, &Measured::variance);
   const auto direction = [](const Measured& m) {
-    return Vec3(std::sin(m.theta) * std::cos(m.azimuth), std::sin(m.theta) * std::sin(m.azimuth), std::cos(m.theta));
+    return Vec3(std::sin(m.theta) * std::cos(m.azimuth), std::sin(m.theta) * std::sin(m.azimuth),
+                std::cos(m.theta));
   };
   std::optional<Measured> best;
   for (std::size_t i = 0; i < all.size() && !best; ++i) {

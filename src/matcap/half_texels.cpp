@@ -36,7 +36,8 @@ std::vector<std::vector<std::byte>> half_levels(const MatcapDecomposition& matca
       std::vector<Half> row(static_cast<std::size_t>(size) * 4);
       for (int x = 0; x < size; ++x) {
         const Vec3f color = image.rgb(x, size - 1 - i % size);
-        for (int c = 0; c < 3; ++c) row[static_cast<std::size_t>(4 * x + c)] = Half(std::clamp(color[c], -largest, largest));
+        for (int c = 0; c < 3; ++c)
+          row[static_cast<std::size_t>(4 * x + c)] = Half(std::clamp(color[c], -largest, largest));
         row[static_cast<std::size_t>(4 * x + 3)] = Half(1.0F);
       }
       std::memcpy(levels[level].data() + static_cast<std::size_t>(i) * row_bytes, row.data(), row_bytes);
@@ -49,7 +50,8 @@ void set_half_levels(MatcapDecomposition& matcap, int size, std::span<const std:
   for (MatcapPart& part : matcap.parts) part.map.levels.clear();
   for (std::size_t level = 0; level < levels.size(); ++level) {
     const int across = std::max(1, size >> level);
-    for (MatcapPart& part : matcap.parts) part.map.levels.push_back({Image(across, across, 3), Image(across, across, 3)});
+    for (MatcapPart& part : matcap.parts)
+      part.map.levels.push_back({Image(across, across, 3), Image(across, across, 3)});
     const auto layers = layers_of(matcap, level);
     const std::size_t row_bytes = static_cast<std::size_t>(across) * kTexelBytes;
     parallel_for(static_cast<int>(layers.size()) * across, [&](int i) {
@@ -58,8 +60,9 @@ void set_half_levels(MatcapDecomposition& matcap, int size, std::span<const std:
       std::memcpy(row.data(), levels[level].data() + static_cast<std::size_t>(i) * row_bytes, row_bytes);
       for (int x = 0; x < across; ++x) {
         const std::size_t at = static_cast<std::size_t>(4 * x);
-        image.set_rgb(x, across - 1 - i % across,
-                      {static_cast<float>(row[at]), static_cast<float>(row[at + 1]), static_cast<float>(row[at + 2])});
+        image.set_rgb(
+            x, across - 1 - i % across,
+            {static_cast<float>(row[at]), static_cast<float>(row[at + 1]), static_cast<float>(row[at + 2])});
       }
     });
   }

@@ -83,17 +83,20 @@ double value_of(const Footprint& f, const Vec2& p, double variance) {
   return box(p.x(), f.size.x(), deviation) * box(p.y(), f.size.y(), deviation);
 }
 
-void paint(SphereMap& map, const LightPlace& place, const Footprint& footprint, const Vec3& color, double variance) {
+void paint(SphereMap& map, const LightPlace& place, const Footprint& footprint, const Vec3& color,
+           double variance) {
   add_everywhere(map, place, [&](const Vec2& p) -> Vec3 { return value_of(footprint, p, variance) * color; });
 }
 
 BitmapLight::BitmapLight(const Image& picture, double width, double variance) {
   const int longest = std::max(picture.width, picture.height);
   const double shrink = std::min(1.0, static_cast<double>(kLargestBitmap) / longest);
-  const Image small = resized(with_channels(picture, 3), std::max(1, static_cast<int>(picture.width * shrink)),
-                              std::max(1, static_cast<int>(picture.height * shrink)));
+  const Image small =
+      resized(with_channels(picture, 3), std::max(1, static_cast<int>(picture.width * shrink)),
+              std::max(1, static_cast<int>(picture.height * shrink)));
   pixel_ = width / small.width;
-  // Blurs much wider than the picture are those of ever fewer pixels: what counts is the margin, 3 deviations.
+  // Blurs much wider than the picture are those of ever fewer pixels: what counts is the margin, 3
+  // deviations.
   const double sigma = std::sqrt(std::max(0.0, variance)) / pixel_;
   const int margin = 1 + static_cast<int>(std::ceil(3 * sigma));
   Image padded(small.width + 2 * margin, small.height + 2 * margin, 3);

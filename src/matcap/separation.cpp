@@ -51,8 +51,8 @@ std::vector<float> channel_of(const Image& image, int c) {
 
 }  // namespace
 
-std::vector<float> cosine_opening(const std::vector<float>& values, const std::vector<char>& ignored, int width,
-                                  int height, const Disc& disc) {
+std::vector<float> cosine_opening(const std::vector<float>& values, const std::vector<char>& ignored,
+                                  int width, int height, const Disc& disc) {
   return opening(tile_sphere(width, height, disc), values, ignored);
 }
 
@@ -91,14 +91,16 @@ Separation separate(const Image& picture, const Disc& disc, Outliers outliers, c
     if (std::isfinite(image.data[i])) continue;
     const std::size_t pixel = i / 3;
     throw Error(fmt::format("{}: has a value that is not finite at pixel ({}, {})", name,
-                            pixel % static_cast<std::size_t>(image.width), pixel / static_cast<std::size_t>(image.width)));
+                            pixel % static_cast<std::size_t>(image.width),
+                            pixel / static_cast<std::size_t>(image.width)));
   }
   const SphereTiles tiles = tile_sphere(image.width, image.height, disc);
   Separation result{Image(image.width, image.height, 3), Image(image.width, image.height, 3)};
   for (int c = 0; c < 3; ++c) {
     const std::vector<float> values = channel_of(image, c);
-    const std::vector<char> ignored =
-        outliers == Outliers::ignore ? find_outliers(values, image.width, image.height, disc) : std::vector<char>{};
+    const std::vector<char> ignored = outliers == Outliers::ignore
+                                          ? find_outliers(values, image.width, image.height, disc)
+                                          : std::vector<char>{};
     const std::vector<float> low = opening(tiles, values, ignored);
     for (int y = 0; y < image.height; ++y) {
       for (int x = 0; x < image.width; ++x) {

@@ -9,8 +9,9 @@
 namespace sateen {
 namespace {
 
-constexpr double kTexelsOfFilter = 3;  // standard deviations of the filter, in texels at the centre of the coarse map
-constexpr float kDark = 1e-3F;         // of white: below, ratios of dark values would be ratios of noise
+constexpr double kTexelsOfFilter =
+    1.5;  // standard deviations of the filter, in texels at the centre of the coarse map
+constexpr float kDark = 1e-3F;  // of white: below, ratios of dark values would be ratios of noise
 
 template <class Function>
 void for_each_value(SphereMap& a, const SphereMap& b, const Function& function) {

@@ -26,7 +26,9 @@ double sample_cubic(const Image& image, double x, double y) {
   std::array<double, 4> rows{};
   for (int j = 0; j < 4; ++j) {
     const int py = std::clamp(y0 - 1 + j, 0, image.height - 1);
-    const auto at = [&](int i) -> double { return image.at(std::clamp(x0 - 1 + i, 0, image.width - 1), py, 0); };
+    const auto at = [&](int i) -> double {
+      return image.at(std::clamp(x0 - 1 + i, 0, image.width - 1), py, 0);
+    };
     rows[static_cast<std::size_t>(j)] = cubic(at(0), at(1), at(2), at(3), tx);
   }
   return cubic(rows[0], rows[1], rows[2], rows[3], ty);
@@ -48,7 +50,8 @@ constexpr double kPlateau = 0.15;
 /// A minimum counts when the variance rises again by this much of itself.
 constexpr double kRise = 0.02;
 
-/// Figure 4 on the logarithms, over the longest run of windows without degenerate ones from the first valid window on.
+/// Figure 4 on the logarithms, over the longest run of windows without degenerate ones from the first valid
+/// window on.
 void choose_window(Signature& s) {
   const auto valid = [&](std::size_t i) { return i < s.variance.size() && std::isfinite(s.variance[i]); };
   std::size_t first = 0;

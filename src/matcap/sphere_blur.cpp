@@ -10,9 +10,12 @@
 namespace sateen {
 namespace {
 
-constexpr double kSupport = 12;       // d0^2 over the variance of (1 - d^2 / d0^2)^4 in the plane: 2 (4 + 2)
+constexpr double kSupport = 12;  // d0^2 over the variance of (1 - d^2 / d0^2)^4 in the plane: 2 (4 + 2)
 constexpr double kTexelsOfBlur = 0.75;
-constexpr int kSmallest = 4;          // texels across the last level
+// Bilinear lookups blur too, by a sixth of a texel's width squared: texels are half as wide at the equator as
+// at the centre of a map, which this is the middle of, in squared widths at the centre.
+constexpr double kLookupBlur = 0.1;
+constexpr int kSmallest = 4;  // texels across the last level
 
 /// The texels of both hemispheres in planes, with direction and solid angle (0 past the equator).
 struct Texels {
@@ -27,13 +30,15 @@ Texels texels_of(const Image& image, bool back) {
   for (auto* plane : {&t.x, &t.y, &t.z, &t.weight, &t.r, &t.g, &t.b}) plane->resize(n);
   parallel_for(t.size, [&](int row) {
     for (int column = 0; column < t.size; ++column) {
-      const std::size_t i = static_cast<std::size_t>(row) * static_cast<std::size_t>(t.size) + static_cast<std::size_t>(column);
+      const std::size_t i =
+          static_cast<std::size_t>(row) * static_cast<std::size_t>(t.size) + static_cast<std::size_t>(column);
       const Vec2 p(2 * (column + 0.5) / t.size - 1, 1 - 2 * (row + 0.5) / t.size);
       const Vec3 w = direction_of_map(p, back);
       t.x[i] = static_cast<float>(w.x());
       t.y[i] = static_cast<float>(w.y());
       t.z[i] = static_cast<float>(w.z());
-      // Solid angle per texel area, 4 / (1 + t^2)^2; the equator cuts texels, which fades over one texel's width.
+      // Solid angle per texel area, 4 / (1 + t^2)^2; the equator cuts texels, which fades over one texel's
+      // width.
       const double r2 = p.squaredNorm();
       const double inside = std::clamp((1 - std::sqrt(r2)) * t.size / 2 + 0.5, 0.0, 1.0);
       t.weight[i] = static_cast<float>(inside * 4 / ((1 + r2) * (1 + r2)));
@@ -70,8 +75,8 @@ void gather(const Texels& t, std::size_t first, std::size_t count, const Vec3f& 
   sums[3] += total;
 }
 
-/// Adds what lies within the cap of angular radius `reach` around `w` on one hemisphere. A circle on the sphere is a
-/// circle on the map: that projection is stereographic.
+/// Adds what lies within the cap of angular radius `reach` around `w` on one hemisphere. A circle on the
+/// sphere is a circle on the map: that projection is stereographic.
 void gather_cap(const Texels& t, bool back, const Vec3& w, double reach, float scale, Sums& sums) {
   const double across = std::hypot(w.x(), w.y());
   const double angle = std::atan2(across, back ? -w.z() : w.z());
@@ -83,7 +88,8 @@ void gather_cap(const Texels& t, bool back, const Vec3& w, double reach, float s
   const double radius = (far - near) / 2;
   const auto column = [&](double p) { return (p + 1) / 2 * t.size; };
   const int y0 = std::max(0, static_cast<int>(std::floor(t.size - column(centre.y() + radius) - 0.5)));
-  const int y1 = std::min(t.size - 1, static_cast<int>(std::ceil(t.size - column(centre.y() - radius) - 0.5)));
+  const int y1 =
+      std::min(t.size - 1, static_cast<int>(std::ceil(t.size - column(centre.y() - radius) - 0.5)));
   for (int y = y0; y <= y1; ++y) {
     const double dy = 1 - 2 * (y + 0.5) / t.size - centre.y();
     const double half = std::sqrt(std::max(0.0, radius * radius - dy * dy));
@@ -93,6 +99,20 @@ void gather_cap(const Texels& t, bool back, const Vec3& w, double reach, float s
     gather(t, static_cast<std::size_t>(y) * static_cast<std::size_t>(t.size) + static_cast<std::size_t>(x0),
            static_cast<std::size_t>(x1 - x0 + 1), w.cast<float>(), scale, sums);
   }
+}
+
+double texel_width(int size) {
+  return 4.0 / size;  // radians at the centre of a map
+}
+
+/// The variance bilinear lookups in a map of `size` texels add.
+double lookup_variance(int size) {
+  return kLookupBlur * texel_width(size) * texel_width(size);
+}
+
+/// The blur that is in the texels of a level, without what lookups add.
+double stored_variance(const PrefilteredMap& map, std::size_t level) {
+  return level == 0 ? 0 : map.variances[level] - lookup_variance(map.levels[level].size());
 }
 
 }  // namespace
@@ -124,9 +144,11 @@ PrefilteredMap prefilter(SphereMap map) {
   result.variances.push_back(0);
   for (int level = 1; size >> level >= kSmallest; ++level) {
     const int smaller = size >> level;
-    const double width = 4.0 / smaller;  // of a texel at the centre, radians
+    const double width = texel_width(smaller);
     const double variance = kTexelsOfBlur * kTexelsOfBlur * width * width;
-    result.levels.push_back(blurred(result.levels.back(), variance - result.variances.back(), smaller));
+    const double stored = stored_variance(result, result.levels.size() - 1);
+    result.levels.push_back(
+        blurred(result.levels.back(), variance - lookup_variance(smaller) - stored, smaller));
     result.variances.push_back(variance);
   }
   return result;
@@ -137,7 +159,10 @@ SphereMap blurred(const PrefilteredMap& map, double variance) {
   // The filter should be wider than the texels it gathers from and those it is sampled at.
   std::size_t level = 0;
   while (level + 1 < map.levels.size() && map.variances[level + 1] < 0.5 * variance) ++level;
-  const SphereMap coarse = blurred(map.levels[level], variance - map.variances[level], map.levels[level].size());
+  const int size = map.levels[level].size();
+  const double looked_up = level == 0 ? 0 : lookup_variance(size);
+  const SphereMap coarse =
+      blurred(map.levels[level], variance - stored_variance(map, level) - looked_up, size);
   return blurred(coarse, 0, map.levels.front().size());
 }
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "sateen/matcap/sphere_disc.h"
 
+#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <optional>
 #include <vector>
 
-#include <Eigen/Dense>
 #include <fmt/format.h>
 
 #include "sateen/core/error.h"
@@ -14,9 +14,9 @@
 namespace sateen {
 namespace {
 
-constexpr double kMinRadius = 2;        // pixels
+constexpr double kMinRadius = 2;           // pixels
 constexpr double kNearlyInscribed = 0.02;  // of the radius: closer than that is taken as the inscribed disc
-constexpr int kRays = 256;              // directions in which the silhouette is looked for
+constexpr int kRays = 256;                 // directions in which the silhouette is looked for
 
 bool alpha_varies(const Image& image) {
   if (image.channels != 2 && image.channels != 4) return false;
@@ -33,7 +33,8 @@ bool alpha_varies(const Image& image) {
 std::optional<std::vector<char>> foreground(const Image& image) {
   std::vector<char> mask(static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height));
   const auto at = [&](int x, int y) -> char& {
-    return mask[static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) + static_cast<std::size_t>(x)];
+    return mask[static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) +
+                static_cast<std::size_t>(x)];
   };
   if (alpha_varies(image)) {
     for (int y = 0; y < image.height; ++y) {
@@ -52,7 +53,8 @@ std::optional<std::vector<char>> foreground(const Image& image) {
     for (int x = 0; x < corner_x; ++x) {
       const int across = image.width - 1 - x;
       const int below = image.height - 1 - y;
-      if (differs(x, y) || differs(across, y) || differs(x, below) || differs(across, below)) return std::nullopt;
+      if (differs(x, y) || differs(across, y) || differs(x, below) || differs(across, below))
+        return std::nullopt;
     }
   }
   for (int y = 0; y < image.height; ++y) {
@@ -67,7 +69,9 @@ std::vector<Vec2> silhouette(const std::vector<char>& mask, int width, int heigh
   double count = 0;
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {
-      if (mask[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)] == 0) continue;
+      if (mask[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)] ==
+          0)
+        continue;
       centre += Vec2(x + 0.5, y + 0.5);
       ++count;
     }
@@ -84,7 +88,8 @@ std::vector<Vec2> silhouette(const std::vector<char>& mask, int width, int heigh
       const int x = static_cast<int>(std::floor(p.x()));
       const int y = static_cast<int>(std::floor(p.y()));
       if (x < 0 || y < 0 || x >= width || y >= height) continue;
-      if (mask[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)] != 0) {
+      if (mask[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)] !=
+          0) {
         points.push_back(p);
         break;
       }
@@ -93,7 +98,8 @@ std::vector<Vec2> silhouette(const std::vector<char>& mask, int width, int heigh
   return points;
 }
 
-/// Least-squares circle through points, the worst left out: a dark part of the rim on a dark background lies inside.
+/// Least-squares circle through points, the worst left out: a dark part of the rim on a dark background lies
+/// inside.
 std::optional<Disc> fit_circle(std::vector<Vec2> points) {
   Disc disc;
   for (int pass = 0; pass < 12; ++pass) {
@@ -107,7 +113,9 @@ std::optional<Disc> fit_circle(std::vector<Vec2> points) {
     }
     const Vec3 s = (a.transpose() * a).ldlt().solve(a.transpose() * b);
     disc = {s.x(), s.y(), std::sqrt(std::max(0.0, s.z() + s.x() * s.x() + s.y() * s.y()))};
-    const auto error = [&](const Vec2& p) { return std::abs((p - Vec2(disc.x, disc.y)).norm() - disc.radius); };
+    const auto error = [&](const Vec2& p) {
+      return std::abs((p - Vec2(disc.x, disc.y)).norm() - disc.radius);
+    };
     const double worst = error(*std::ranges::max_element(points, {}, error));
     if (worst < std::max(1.0, 0.01 * disc.radius)) return disc;
     std::erase_if(points, [&](const Vec2& p) { return error(p) > 0.6 * worst; });
@@ -123,14 +131,15 @@ Disc inscribed_disc(int width, int height) {
 
 void check_disc(const Disc& disc, int width, int height, const std::string& name) {
   if (!(disc.radius >= kMinRadius)) {
-    throw Error(fmt::format("{}: the sphere has a radius of {:.3g} pixels; at least {} are needed", name, disc.radius,
-                            kMinRadius));
+    throw Error(fmt::format("{}: the sphere has a radius of {:.3g} pixels; at least {} are needed", name,
+                            disc.radius, kMinRadius));
   }
   const double out = std::max({disc.radius - disc.x, disc.radius - disc.y, disc.x + disc.radius - width,
                                disc.y + disc.radius - height});
   if (!(out <= 0.5)) {
-    throw Error(fmt::format("{}: a sphere at ({:.6g}, {:.6g}) of radius {:.6g} does not fit into {} x {} pixels", name,
-                            disc.x, disc.y, disc.radius, width, height));
+    throw Error(
+        fmt::format("{}: a sphere at ({:.6g}, {:.6g}) of radius {:.6g} does not fit into {} x {} pixels",
+                    name, disc.x, disc.y, disc.radius, width, height));
   }
 }
 
@@ -143,7 +152,8 @@ Disc find_disc(const Image& image, const std::string& name) {
     const double off = std::max({std::abs(found->x - inscribed.x), std::abs(found->y - inscribed.y),
                                  std::abs(found->radius - inscribed.radius)});
     const bool fits = found->x - found->radius > -1 && found->y - found->radius > -1 &&
-                      found->x + found->radius < image.width + 1 && found->y + found->radius < image.height + 1;
+                      found->x + found->radius < image.width + 1 &&
+                      found->y + found->radius < image.height + 1;
     if (image.width == image.height && off < kNearlyInscribed * inscribed.radius) return inscribed;
     if (fits && found->radius >= kMinRadius) {
       found->radius = std::min({found->radius, found->x + 0.5, found->y + 0.5, image.width - found->x + 0.5,
@@ -152,9 +162,10 @@ Disc find_disc(const Image& image, const std::string& name) {
     }
   }
   if (image.width != image.height) {
-    throw Error(fmt::format("{}: {} x {} pixels and no sphere found before a plain background; a MatCap is square, or "
-                            "say where the sphere is (disc x,y,r in pixels)",
-                            name, image.width, image.height));
+    throw Error(fmt::format(
+        "{}: {} x {} pixels and no sphere found before a plain background; a MatCap is square, or "
+        "say where the sphere is (disc x,y,r in pixels)",
+        name, image.width, image.height));
   }
   return inscribed;
 }

@@ -9,10 +9,10 @@
 
 namespace sateen {
 
-/// Colours over all directions as a dual paraboloid map (Heidrich and Seidel 1998): two square pictures of equal size,
-/// front for w.z >= 0 and back for w.z < 0, both indexed by the texture coordinate w.xy / (2 (1 + |w.z|)) + 1/2, v up.
-/// Each picture goes on past its hemisphere into its corners (the same formula read backwards), so that bilinear lookups
-/// meet at the equator without a seam.
+/// Colours over all directions as a dual paraboloid map (Heidrich and Seidel 1998): two square pictures of
+/// equal size, front for w.z >= 0 and back for w.z < 0, both indexed by the texture coordinate w.xy / (2 (1 +
+/// |w.z|)) + 1/2, v up. Each picture goes on past its hemisphere into its corners (the same formula read
+/// backwards), so that bilinear lookups meet at the equator without a seam.
 struct SphereMap {
   Image front;  ///< 3 channels
   Image back;
@@ -34,15 +34,16 @@ SphereMap make_sphere_map(int size, const std::function<Vec3(const Vec3& directi
 /// Bilinear lookup.
 Vec3 sample(const SphereMap& map, const Vec3& direction);
 
-/// A sphere map and ever smaller, ever more blurred copies of it, level by level half the size (rounded down).
-/// Level i is level 0 blurred with a spherical filter of variance variances[i] (radians^2); variances[0] is 0.
+/// A sphere map and ever smaller, ever more blurred copies of it, level by level half the size (rounded
+/// down). Level i is level 0 blurred with a spherical filter of variance variances[i] (radians^2);
+/// variances[0] is 0.
 struct PrefilteredMap {
   std::vector<SphereMap> levels;
   std::vector<double> variances;
 };
 
-/// The level of detail whose linear mix of two levels is a blur by `variance`: mixing two zero-mean filters mixes their
-/// variances, so interpolation is linear in variance. Clamped to the last level.
+/// The level of detail whose linear mix of two levels is a blur by `variance`: mixing two zero-mean filters
+/// mixes their variances, so interpolation is linear in variance. Clamped to the last level.
 double level_of_variance(const std::vector<double>& variances, double variance);
 
 /// Lookup blurred by `variance`.

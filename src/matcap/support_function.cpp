@@ -10,8 +10,9 @@
 
 #include "sateen/core/parallel.h"
 
-// The inner loops exist twice, for any processor and for those with AVX2, chosen when the program runs. Both use the
-// vector extension of GCC and Clang and no fused multiply-add (see CMakeLists.txt), so that they agree to the last bit.
+// The inner loops exist twice, for any processor and for those with AVX2, chosen when the program runs. Both
+// use the vector extension of GCC and Clang and no fused multiply-add (see CMakeLists.txt), so that they
+// agree to the last bit.
 #if defined(__x86_64__)
 #define SATEEN_AVX2 __attribute__((target("avx2")))
 #define SATEEN_HAS_AVX2() (__builtin_cpu_supports("avx2") != 0)
@@ -25,11 +26,11 @@ namespace sateen {
 namespace {
 
 constexpr int kLanes = SphereTiles::kLanes;
-constexpr int kGroup = 8;                      // lanes in one vector
+constexpr int kGroup = 8;  // lanes in one vector
 constexpr int kGroups = kLanes / kGroup;
-constexpr int kLeafSide = 4;                   // pixels along a leaf: four leaves make a tile
+constexpr int kLeafSide = 4;  // pixels along a leaf: four leaves make a tile
 constexpr int kLeafPoints = kLeafSide * kLeafSide;
-constexpr int kRemembered = 12;                // leaves that helped the packet before this one
+constexpr int kRemembered = 12;  // leaves that helped the packet before this one
 constexpr std::size_t kStackDepth = 96;
 
 using Floats = float __attribute__((vector_size(kGroup * sizeof(float))));
@@ -195,7 +196,8 @@ SATEEN_INLINE bool visit_leaf(Packet& p, const Leaf& leaf) {
 SATEEN_INLINE void walk(const Tree& tree, Packet& p, Memory& memory) {
   Memory next;
   for (std::size_t i = 0; i < memory.count; ++i) {
-    if (visit_leaf(p, tree.leaves[static_cast<std::size_t>(memory.leaves[i])])) next.remember(memory.leaves[i]);
+    if (visit_leaf(p, tree.leaves[static_cast<std::size_t>(memory.leaves[i])]))
+      next.remember(memory.leaves[i]);
   }
   std::array<int, kStackDepth> stack;
   std::size_t size = 0;

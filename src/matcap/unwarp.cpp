@@ -15,7 +15,8 @@ namespace {
 
 constexpr int kCorrections = 12;
 
-/// The picture with the sphere's rim continued outwards, so that lookups near the rim never see what is behind it.
+/// The picture with the sphere's rim continued outwards, so that lookups near the rim never see what is
+/// behind it.
 Image continued_past_rim(const Image& component, const Disc& disc) {
   Image image = component;
   for (int y = 0; y < image.height; ++y) {
@@ -45,8 +46,8 @@ Vec3 sample_sharp(const Image& image, double x, double y) {
   const int x0 = static_cast<int>(std::floor(fx));
   const int y0 = static_cast<int>(std::floor(fy));
   const auto weights = [](double t) {
-    return std::array<double, 4>{((2 - t) * t - 1) * t / 2, ((3 * t - 5) * t * t + 2) / 2, ((4 - 3 * t) * t + 1) * t / 2,
-                                 (t - 1) * t * t / 2};
+    return std::array<double, 4>{((2 - t) * t - 1) * t / 2, ((3 * t - 5) * t * t + 2) / 2,
+                                 ((4 - 3 * t) * t + 1) * t / 2, (t - 1) * t * t / 2};
   };
   const auto wx = weights(fx - x0);
   const auto wy = weights(fy - y0);
@@ -105,8 +106,9 @@ std::vector<Lookup> lookups(const Image& component, const Disc& disc, double slo
   return all;
 }
 
-/// Landweber iterations (simultaneous iterative reconstruction): each texel moves by the weighted mean of the errors of
-/// the pixels that read it. Where texels are denser than pixels the errors vanish; elsewhere it is the least squares.
+/// Landweber iterations (simultaneous iterative reconstruction): each texel moves by the weighted mean of the
+/// errors of the pixels that read it. Where texels are denser than pixels the errors vanish; elsewhere it is
+/// the least squares.
 void correct(SphereMap& map, const Image& component, const std::vector<Lookup>& all) {
   std::array<std::vector<float>, 2> received{std::vector<float>(map.front.data.size() / 3),
                                              std::vector<float>(map.front.data.size() / 3)};
@@ -165,7 +167,8 @@ double unwarp_error(const SphereMap& map, const Image& component, const Disc& di
     for (int x = 0; x < component.width; ++x) {
       if (!on_disc(disc, x, y)) continue;
       const Vec3 w = warp(normal_on_disc(disc_point(disc, x + 0.5, y + 0.5)), slope);
-      sums[static_cast<std::size_t>(y)] += (sample(map, w) - component.rgb(x, y).cast<double>()).squaredNorm();
+      sums[static_cast<std::size_t>(y)] +=
+          (sample(map, w) - component.rgb(x, y).cast<double>()).squaredNorm();
       counts[static_cast<std::size_t>(y)] += 3;
     }
   });

@@ -32,14 +32,14 @@ inline SpherePixels sphere_pixels(int width, int height, const Disc& disc) {
   return result;
 }
 
-/// max over all points of n . point for the directions first, first + stride, ... by trying every point; the loops the
-/// compiler vectorises best. -FLT_MAX for the other directions.
+/// max over all points of n . point for the directions first, first + stride, ... by trying every point; the
+/// loops the compiler vectorises best. -FLT_MAX for the other directions.
 #if defined(__x86_64__)
 __attribute__((target("avx2"), optimize("no-fast-math")))
 #endif
-inline std::vector<float> support_brute_force(const SpherePixels& directions, const std::vector<float>& px,
-                                              const std::vector<float>& py, const std::vector<float>& pz,
-                                              std::size_t stride = 1) {
+inline std::vector<float>
+support_brute_force(const SpherePixels& directions, const std::vector<float>& px,
+                    const std::vector<float>& py, const std::vector<float>& pz, std::size_t stride = 1) {
   constexpr std::size_t kWidth = 64;
   std::vector<float> result(directions.x.size(), -FLT_MAX);
   for (std::size_t first = 0; first < result.size(); first += kWidth * stride) {
@@ -63,8 +63,9 @@ inline std::vector<float> support_brute_force(const SpherePixels& directions, co
 }
 
 /// The definition of cosine_opening (matcap/separation.h) by comparing all pairs of pixels.
-inline std::vector<float> opening_brute_force(const std::vector<float>& values, const std::vector<char>& ignored,
-                                              int width, int height, const Disc& disc) {
+inline std::vector<float> opening_brute_force(const std::vector<float>& values,
+                                              const std::vector<char>& ignored, int width, int height,
+                                              const Disc& disc) {
   const SpherePixels pixels = sphere_pixels(width, height, disc);
   std::vector<float> x, y, z;
   const auto clear = [&] {
@@ -78,7 +79,8 @@ inline std::vector<float> opening_brute_force(const std::vector<float>& values, 
     z.push_back(s * pixels.z[i]);
   };
   for (std::size_t i = 0; i < pixels.pixel.size(); ++i) {
-    if (ignored.empty() || ignored[pixels.pixel[i]] == 0) add(i, 1 / std::max(values[pixels.pixel[i]], 1e-20F));
+    if (ignored.empty() || ignored[pixels.pixel[i]] == 0)
+      add(i, 1 / std::max(values[pixels.pixel[i]], 1e-20F));
   }
   std::vector<float> result(values.size(), 0);
   if (x.empty()) return result;
