@@ -80,5 +80,13 @@ for c in gltf materialx blender filament; do
 done
 row brdf-conventions.png sphere-gltf sphere-materialx sphere-blender sphere-filament
 
+for a in 0 90; do
+  for m in maximum-normal fibre-diffuse; do
+    echo "{\"model\": \"layered\", $lamp, \"base\": {\"model\": \"$m\", \"azimuth\": $a, \"color\": [0.7, 0.5, 0.3]}}" |
+      draw "fibre-$m-$a"
+  done
+done
+row fibre-diffuse.png fibre-maximum-normal-0 fibre-fibre-diffuse-0 fibre-maximum-normal-90 fibre-fibre-diffuse-90
+
 $sateen brdf plot fuzz --params examples/brdf/fuzz.json -o $images/brdf-fuzz.svg
 $sateen brdf plot ggx --params examples/brdf/ggx.json -o $images/brdf-ggx.svg

@@ -23,6 +23,9 @@
 
 uniform vec3 base_colour;
 uniform bool base_fibres;
+uniform vec2 base_lobe;  // the fibres' light is (|l across the fibre| + x n.l) y
+uniform vec3 base_moments;  // of that over the hemisphere: xx, yy, zz
+uniform float base_moment_z;
 uniform vec2 base_axis;  // cosine and sine of the fibres' azimuth, as every *_axis here
 uniform float simple_fuzziness;
 
@@ -84,8 +87,7 @@ vec3 layered_simple_fuzz(vec3 light, vec3 view) {
 vec3 layered_direct(vec3 light, vec3 view) {
   vec3 base = vec3(0.0);
   if (light.z > 0.0) {
-    float diffuse = base_fibres ? fibre_diffuse(layered_turned(light, base_axis)) * 0.38898452964834274  // 1 / (1 + pi/2)
-                                : light.z * 0.3183098861837907;
+    float diffuse = base_fibres ? fibre_lobe(layered_turned(light, base_axis), base_lobe) : light.z * 0.3183098861837907;
     base = base_colour * diffuse;
   }
   if (LAYERED_SIMPLE_FUZZ) base = mix(base, layered_simple_fuzz(light, view), simple_fuzziness);
@@ -109,11 +111,9 @@ vec3 layered_diffuse_surroundings(mat3 frame) {
   if (!base_fibres) return base_colour * harmonics_lobe(frame[2], vec3(1.0, 0.6666666667, 0.25));
   vec3 fibre = frame * vec3(base_axis, 0.0);
   vec3 across = frame * vec3(-base_axis.y, base_axis.x, 0.0);
-  // Moments of Phi over the hemisphere: 1 + pi/2, 8/(3 pi) + 2/3, pi/8 + 1/4, 3 pi/16 + 1/4, 3 pi/16 + 1/2.
-  vec3 sum = environment_harmonics[0] * 2.5707963268 + harmonics_linear(frame[2]) * 1.5154930298 +
-             harmonics_quadratic(fibre) * 0.6426990817 + harmonics_quadratic(across) * 0.8390486225 +
-             harmonics_quadratic(frame[2]) * 1.0890486225;
-  return base_colour * sum * 0.38898452964834274;
+  return base_colour * (environment_harmonics[0] + harmonics_linear(frame[2]) * base_moment_z +
+                        harmonics_quadratic(fibre) * base_moments.x + harmonics_quadratic(across) * base_moments.y +
+                        harmonics_quadratic(frame[2]) * base_moments.z);
 }
 
 vec3 layered_reflected_surroundings(mat3 frame, vec3 view) {

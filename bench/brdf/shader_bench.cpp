@@ -3,7 +3,6 @@
 // an angle. Wall clock around glFinish, because timer queries mean nothing on software drivers; best of
 // several rounds, each material in turn, so that a busy machine hits all alike.
 #include <algorithm>
-#include <cstdio>
 #include <limits>
 
 #include <epoxy/gl.h>

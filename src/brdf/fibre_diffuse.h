@@ -41,6 +41,9 @@ inline constexpr double kFibreDiffuseNorm = 1 + kPi / 2;
 struct FibreMoments {
   double one, z, xx, yy, zz;
 };
+/// The same of fibre_maximum_normal.
+inline constexpr FibreMoments kMaximumNormalMoments = {kPi * kPi / 2, 8.0 / 3, kPi* kPi / 8,
+                                                       3 * kPi* kPi / 16, 3 * kPi* kPi / 16};
 inline constexpr FibreMoments kFibreMoments = {1 + kPi / 2, 8 / (3 * kPi) + 2.0 / 3, kPi / 8 + 0.25,
                                                3 * kPi / 16 + 0.25, 3 * kPi / 16 + 0.5};
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "sateen/brdf/fuzz_table.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 

@@ -29,6 +29,19 @@ Vec3f narrow(const Vec3& v) {
   return v.cast<float>();
 }
 
+const FibreMoments& moments(LayeredMaterial::Base base) {
+  return base == LayeredMaterial::Base::maximum_normal ? kMaximumNormalMoments : kFibreMoments;
+}
+
+/// The base layer's radiance for a lamp of unit irradiance above the horizon, per base colour.
+double base_value(const LayeredMaterial& material, const Vec3& light) {
+  if (material.base == LayeredMaterial::Base::lambert) return light.z() / kPi;
+  const Vec3 local = turned(light, material.base_azimuth);
+  const double value = material.base == LayeredMaterial::Base::maximum_normal ? fibre_maximum_normal(local)
+                                                                              : fibre_diffuse(local);
+  return value / moments(material.base).one;
+}
+
 // The slides' simplified version for deferred shading.
 constexpr double kSimpleDensity = 0.5;
 constexpr double kSimpleAlpha = 0.95;
@@ -93,10 +106,7 @@ Vec3 LayeredAppearance::simple_fuzz(const Vec3& light, const Vec3& view) const {
 Vec3 LayeredAppearance::direct(const Vec3& light, const Vec3& view) const {
   Vec3 diffuse = Vec3::Zero();
   if (light.z() > 0) {
-    diffuse = material_.base_fibres
-                  ? material_.base_colour *
-                        (fibre_diffuse(turned(light, material_.base_azimuth)) / kFibreDiffuseNorm)
-                  : material_.base_colour * (light.z() / kPi);
+    diffuse = material_.base_colour * base_value(material_, light);
   }
   if (material_.simple_fuzziness > 0) {
     diffuse =
@@ -125,16 +135,16 @@ Vec3 LayeredAppearance::direct(const Vec3& light, const Vec3& view) const {
 
 Vec3 LayeredAppearance::diffuse_surroundings(const Frame& frame) const {
   const SphericalHarmonics9& light = lighting_.harmonics;
-  if (!material_.base_fibres) {
+  if (material_.base == LayeredMaterial::Base::lambert) {
     return material_.base_colour.cwiseProduct(light.lobe(frame.normal, {1, 2.0 / 3, 0.25}));
   }
   const Vec3 axis(std::cos(material_.base_azimuth), std::sin(material_.base_azimuth), 0);
   const Vec3 fibre = frame.out_of(axis);
   const Vec3 across = frame.out_of({-axis.y(), axis.x(), 0});
-  const Vec3 sum = light.c[0] * kFibreMoments.one + light.linear(frame.normal) * kFibreMoments.z +
-                   light.quadratic(fibre) * kFibreMoments.xx + light.quadratic(across) * kFibreMoments.yy +
-                   light.quadratic(frame.normal) * kFibreMoments.zz;
-  return material_.base_colour.cwiseProduct(sum / kFibreDiffuseNorm);
+  const FibreMoments& m = moments(material_.base);
+  const Vec3 sum = light.c[0] * m.one + light.linear(frame.normal) * m.z + light.quadratic(fibre) * m.xx +
+                   light.quadratic(across) * m.yy + light.quadratic(frame.normal) * m.zz;
+  return material_.base_colour.cwiseProduct(sum / m.one);
 }
 
 Vec3 LayeredAppearance::reflected_surroundings(const Frame& frame, const Vec3& view) const {
@@ -226,7 +236,7 @@ Vec3 LayeredAppearance::evaluate(const Surface& surface) const {
 }
 
 Appearance::Needs LayeredAppearance::needs() const {
-  const bool turning = material_.base_fibres ||
+  const bool turning = material_.base != LayeredMaterial::Base::lambert ||
                        (material_.specular &&
                         material_.specular->roughness.alpha_t != material_.specular->roughness.alpha_b) ||
                        (material_.fuzz && std::sin(material_.fuzz->tilt) > 1e-9);
@@ -289,7 +299,13 @@ ShaderBinding LayeredAppearance::shader() const {
   }
 
   set("base_colour", narrow(material_.base_colour));
-  set("base_fibres", material_.base_fibres ? 1 : 0);
+  const FibreMoments& m = moments(material_.base);
+  const bool maximum = material_.base == LayeredMaterial::Base::maximum_normal;
+  set("base_fibres", material_.base != LayeredMaterial::Base::lambert ? 1 : 0);
+  // (|l across the fibre| + x n.l) y, and the moments over the zeroth.
+  set("base_lobe", Vec2f(maximum ? 0.0f : 1.0f, static_cast<float>((maximum ? 1 : 1 / kPi) / m.one)));
+  set("base_moments", narrow(Vec3(m.xx, m.yy, m.zz) / m.one));
+  number("base_moment_z", m.z / m.one);
   axis("base_axis", material_.base_azimuth);
   number("simple_fuzziness", material_.simple_fuzziness);
 

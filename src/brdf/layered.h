@@ -20,9 +20,14 @@ namespace sateen {
 /// A material of analytic layers, from the bottom: diffuse base, GGX reflection, fuzz. docs/materials.md has
 /// its file.
 struct LayeredMaterial {
+  enum class Base {
+    lambert,
+    fibre_diffuse,   ///< Hast et al. (fibre_diffuse.h), scaled to a white furnace
+    maximum_normal,  ///< their comparison, scaled alike
+  };
+  Base base = Base::lambert;
   Vec3 base_colour{0.5, 0.5, 0.5};
-  bool base_fibres = false;  ///< Hast's fibre diffuse (fibre_diffuse.h) in place of Lambert
-  double base_azimuth = 0;   ///< of those fibres, radians counter-clockwise from the tangent
+  double base_azimuth = 0;  ///< of those fibres, radians counter-clockwise from the tangent
 
   std::optional<GgxParameters> specular;
   /// Lookups along the stretched lobe in environment light; 0: 1 for equal alphas, 8 otherwise.

@@ -67,9 +67,12 @@ Lighting read_lighting(JsonObject& json, const std::filesystem::path& path) {
 }
 
 void read_base(JsonObject& json, LayeredMaterial& material) {
-  static const std::array<std::string, 2> models = {"lambert", "fibre-diffuse"};
+  static const std::array<std::string, 3> models = {"lambert", "fibre-diffuse", "maximum-normal"};
   material.base_colour = json.colour("color", material.base_colour);
-  material.base_fibres = json.choice("model", "lambert", models) == "fibre-diffuse";
+  const std::string model = json.choice("model", "lambert", models);
+  material.base = model == "fibre-diffuse"    ? LayeredMaterial::Base::fibre_diffuse
+                  : model == "maximum-normal" ? LayeredMaterial::Base::maximum_normal
+                                              : LayeredMaterial::Base::lambert;
   material.base_azimuth = radians(json.number("azimuth", 0, {-360, 360}));
   json.finish();
 }

@@ -74,6 +74,17 @@ TEST(FibreDiffuse, NoDirectionGivesNaN) {
   }
 }
 
+TEST(FibreDiffuse, MomentsOfTheMaximumNormalAreTheIntegralsTheyName) {
+  const auto moment = [](auto weight) {
+    return test::midpoint_hemisphere([&](const Vec3& l) { return fibre_maximum_normal(l) * weight(l); }, 500);
+  };
+  EXPECT_NEAR(kMaximumNormalMoments.one, moment([](const Vec3&) { return 1.0; }), 1e-4);
+  EXPECT_NEAR(kMaximumNormalMoments.z, moment([](const Vec3& l) { return l.z(); }), 1e-4);
+  EXPECT_NEAR(kMaximumNormalMoments.xx, moment([](const Vec3& l) { return l.x() * l.x(); }), 1e-4);
+  EXPECT_NEAR(kMaximumNormalMoments.yy, moment([](const Vec3& l) { return l.y() * l.y(); }), 1e-4);
+  EXPECT_NEAR(kMaximumNormalMoments.zz, moment([](const Vec3& l) { return l.z() * l.z(); }), 1e-4);
+}
+
 TEST(FibreDiffuse, MomentsAreTheIntegralsTheyName) {
   const auto moment = [](auto weight) {
     return test::midpoint_hemisphere([&](const Vec3& l) { return fibre_diffuse(l) * weight(l); }, 500);

@@ -99,9 +99,11 @@ void expect_gpu_agrees(const LayeredMaterial& material) {
 
 TEST(LayeredOnGpu, FibreDiffuseEqualsTheEvaluator) {
   LayeredMaterial material;
-  material.base_fibres = true;
   material.base_azimuth = 0.6;
-  expect_gpu_agrees(material);
+  for (const auto base : {LayeredMaterial::Base::fibre_diffuse, LayeredMaterial::Base::maximum_normal}) {
+    material.base = base;
+    expect_gpu_agrees(material);
+  }
 }
 
 TEST(LayeredOnGpu, GgxEqualsTheEvaluator) {
@@ -139,7 +141,7 @@ TEST(Layered, AWhiteFurnaceIsWhite) {
   LayeredMaterial lambert;
   lambert.base_colour = Vec3::Ones();
   LayeredMaterial fibres = lambert;
-  fibres.base_fibres = true;
+  fibres.base = LayeredMaterial::Base::fibre_diffuse;
   LayeredMaterial metal;
   metal.base_colour = Vec3::Zero();
   metal.specular = GgxParameters{{0.5, 0.2, 0}, Vec3::Ones(), true};
@@ -193,7 +195,7 @@ TEST(Layered, SurroundingsAreCloseToTheIntegralOfTheBrdf) {
   LayeredMaterial fuzz = fuzzy();
   fuzz.base_colour = Vec3::Zero();
   LayeredMaterial fibres;
-  fibres.base_fibres = true;
+  fibres.base = LayeredMaterial::Base::fibre_diffuse;
   const LayeredAppearance gloss_look(gloss, lighting);
   const LayeredAppearance fuzz_look(fuzz, lighting);
   const LayeredAppearance fibre_look(fibres, lighting);
