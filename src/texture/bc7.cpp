@@ -378,7 +378,8 @@ void try_rotation(const Planes& texels, bool alpha, int mode, int rotation, int 
   if (c.error + s.error < best.error) best = {mode, 0, rotation, index_mode, {c, s}, c.error + s.error};
 }
 
-/// Mode 5 holds any constant colour exactly: for each 8-bit value there are two 7-bit ends whose step at 21/64 is it.
+/// Mode 5 holds any constant colour exactly: for each 8-bit value there are two 7-bit ends whose step at
+/// 21/64 is it.
 struct ConstantEnds {
   std::array<std::array<int, 2>, 256> stored{};
 };
