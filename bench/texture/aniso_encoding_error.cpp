@@ -88,8 +88,8 @@ std::vector<double> interpolation_errors(const std::vector<Encoding>& all, const
     for (int j = 0; j < 4; ++j) {
       AnisotropicRoughness a = lobe;
       a.azimuth = scene == Scene::smooth   ? base + (uniform() - 0.5) * 0.5
-                : scene == Scene::random ? uniform() * kPi
-                                         : base + (j % 2) * kPi / 2;
+                  : scene == Scene::random ? uniform() * kPi
+                                           : base + (j % 2) * kPi / 2;
       corner[static_cast<std::size_t>(j)].s = roughness_matrix(a);
     }
     const double u = uniform();
@@ -169,14 +169,16 @@ int main() {
        {std::pair{Scene::smooth, "angles within 14 degrees"},
         std::pair{Scene::warp_and_weft, "warp beside weft"}, std::pair{Scene::random, "random angles"}}) {
     for (const AnisotropicRoughness& lobe : lobes) {
-      row(fmt::format("{}, {} and {}", name, lobe.alpha_t, lobe.alpha_b), interpolation_errors(all, lobe, scene));
+      row(fmt::format("{}, {} and {}", name, lobe.alpha_t, lobe.alpha_b),
+          interpolation_errors(all, lobe, scene));
     }
   }
   for (const bool blocks : {false, true}) {
     for (const AnisotropicRoughness& lobe : lobes) {
       std::vector<double> errors;
       for (const Encoding& e : all) errors.push_back(alpha_error(e, lobe, blocks));
-      row(fmt::format("alphas {} and {} after {}", lobe.alpha_t, lobe.alpha_b, blocks ? "BC7" : "8 bits"), errors);
+      row(fmt::format("alphas {} and {} after {}", lobe.alpha_t, lobe.alpha_b, blocks ? "BC7" : "8 bits"),
+          errors);
     }
   }
 }

@@ -17,8 +17,8 @@ namespace sateen {
 // angle + pi are the same lobe. Average the matrices, never angles. With the normal added it is the 3 x 3
 // matrix of the SGGX distribution (Heitz et al. 2015): S = M_n [S2 0; 0 1] M_n^T.
 
-/// The matrix with its eigenvalues clamped to [kMinimumAlpha^2, 1], as roughness_from_matrix does: interpolation and
-/// quantisation can make any.
+/// The matrix with its eigenvalues clamped to [kMinimumAlpha^2, 1], as roughness_from_matrix does:
+/// interpolation and quantisation can make any.
 Mat2 guarded(const Mat2& s);
 
 /// How the three channels of an anisotropy map hold S2. Both fit 8 bits and BC7.

@@ -10,7 +10,8 @@ double unit(double v) {
 
 /// The lobe with its alphas in range and the longer highlight along its axis.
 AnisotropicRoughness settled(const AnisotropicRoughness& lobe) {
-  AnisotropicRoughness out{std::clamp(lobe.alpha_t, kMinimumAlpha, 1.0), std::clamp(lobe.alpha_b, kMinimumAlpha, 1.0), lobe.azimuth};
+  AnisotropicRoughness out{std::clamp(lobe.alpha_t, kMinimumAlpha, 1.0),
+                           std::clamp(lobe.alpha_b, kMinimumAlpha, 1.0), lobe.azimuth};
   if (out.alpha_t < out.alpha_b) {
     std::swap(out.alpha_t, out.alpha_b);
     out.azimuth += kPi / 2;
@@ -45,7 +46,8 @@ AnisotropicRoughness lobe_of(const GltfAnisotropy& style) {
 
 GltfAnisotropy gltf_of(const AnisotropicRoughness& lobe) {
   const AnisotropicRoughness s = settled(lobe);
-  return {std::sqrt(s.alpha_b), s.alpha_b < 1 ? std::sqrt((s.alpha_t - s.alpha_b) / (1 - s.alpha_b)) : 0, half_turns(s.azimuth)};
+  return {std::sqrt(s.alpha_b), s.alpha_b < 1 ? std::sqrt((s.alpha_t - s.alpha_b) / (1 - s.alpha_b)) : 0,
+          half_turns(s.azimuth)};
 }
 
 AnisotropicRoughness lobe_of(const BlenderAnisotropy& style) {
@@ -56,7 +58,8 @@ AnisotropicRoughness lobe_of(const BlenderAnisotropy& style) {
 
 BlenderAnisotropy blender_of(const AnisotropicRoughness& lobe) {
   const AnisotropicRoughness s = settled(lobe);
-  return {std::pow(s.alpha_t * s.alpha_b, 0.25), unit((1 - s.alpha_b / s.alpha_t) / 0.9), half_turns(s.azimuth)};
+  return {std::pow(s.alpha_t * s.alpha_b, 0.25), unit((1 - s.alpha_b / s.alpha_t) / 0.9),
+          half_turns(s.azimuth)};
 }
 
 AnisotropicRoughness lobe_of(const SubstanceAnisotropy& style) {

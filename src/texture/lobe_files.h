@@ -30,7 +30,7 @@ struct LobeMapFiles {
   std::filesystem::path anisotropy;  ///< three channels as `encoding` says
   AnisotropyEncoding encoding = AnisotropyEncoding::root;
   std::filesystem::path
-      roughness;              ///< instead of `anisotropy`: isotropic, first channel, alpha = roughness^2
+      roughness;                  ///< instead of `anisotropy`: isotropic, first channel, alpha = roughness^2
   AnisotropicRoughness constant;  ///< when neither map is given
 };
 

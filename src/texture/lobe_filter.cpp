@@ -57,7 +57,7 @@ std::string name_of(FilterMethod method) {
 }
 
 Mat2 isotropic_matrix(const Mat2& s) {
-  return Mat2::Identity() * std::sqrt(std::max(s.determinant(), 0.0));
+  return Mat2::Identity() * (s.trace() / 2);
 }
 
 void pack_moments(const LobeTexel& texel, const FilterOptions& options, std::span<float, kMoments> out) {

@@ -52,8 +52,8 @@ void pack_moments(const LobeTexel& texel, const FilterOptions& options, std::spa
 /// The texel of averaged moments: unit normal with z > 0, guarded matrix.
 LobeTexel unpack_moments(std::span<const float, kMoments> moments, const FilterOptions& options);
 
-/// The isotropic matrix with the same peak: alpha^2 = alpha_t alpha_b. Closer to averaged lobes than the mean
-/// of both.
+/// The isotropic matrix with the same mean variance of slopes: alpha^2 is the mean of both. (Their geometric
+/// mean, which keeps the peak, comes no closer to averaged lobes.)
 Mat2 isotropic_matrix(const Mat2& s);
 
 }  // namespace sateen

@@ -72,8 +72,8 @@ TEST(AnisoShader, DecodesAsTheReferenceDoes) {
       for (int x = 0; x < kSize; ++x) {
         const Vec3 c =
             x < kSize / 2
-                ? encode_anisotropy(roughness_matrix({alpha(generator), alpha(generator), 7 * alpha(generator)}),
-                                    encoding)
+                ? encode_anisotropy(
+                      roughness_matrix({alpha(generator), alpha(generator), 7 * alpha(generator)}), encoding)
                 : Vec3(value(generator), value(generator), value(generator));
         for (int k = 0; k < 3; ++k) input.at(x, y, k) = static_cast<float>(c[k]);
       }

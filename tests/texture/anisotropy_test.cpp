@@ -16,7 +16,9 @@ class Random {
   double operator()(double low = 0, double high = 1) {
     return std::uniform_real_distribution<double>(low, high)(generator_);
   }
-  AnisotropicRoughness lobe() { return {(*this)(kMinimumAlpha, 1), (*this)(kMinimumAlpha, 1), (*this)(-kPi, kPi)}; }
+  AnisotropicRoughness lobe() {
+    return {(*this)(kMinimumAlpha, 1), (*this)(kMinimumAlpha, 1), (*this)(-kPi, kPi)};
+  }
   Vec3 normal() {
     const double z = (*this)(0.01, 1);
     const double phi = (*this)(0, 2 * kPi);

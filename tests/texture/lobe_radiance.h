@@ -6,8 +6,8 @@
 
 namespace sateen {
 
-/// What one lobe sends to the eye under a directional light of irradiance pi across its direction: GGX without Fresnel,
-/// times the cosine about the texel's own normal.
+/// What one lobe sends to the eye under a directional light of irradiance pi across its direction: GGX
+/// without Fresnel, times the cosine about the texel's own normal.
 inline double lobe_radiance(const LobeTexel& texel, const Vec3& light, const Vec3& view) {
   const Mat3 frame = normal_frame(texel.normal);
   const Vec3 l = frame.transpose() * light;
