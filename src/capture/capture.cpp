@@ -20,7 +20,7 @@ namespace {
 
 constexpr double kAssumedFov = 60;               // degrees: common for webcams
 constexpr double kRegistrationNoise = radians(0.25);
-constexpr int kSymmetrySlices = 96;              // divisible by 2, 3 and 4
+constexpr int kSymmetrySlices = 48;              // divisible by 2, 3 and 4
 
 double median(std::vector<double> values) {
   const auto half = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);

@@ -40,6 +40,11 @@ float dark_floor(const RectifiedStack& stack) {
 
 constexpr std::int8_t kUnknown = -128;
 
+/// Some fifty frames agree as well as all of them.
+std::size_t frame_step(std::size_t frames) {
+  return std::max<std::size_t>(1, frames / 48);
+}
+
 /// How much each rectified sample differs from the median of the angles around it, natural log, 100 a unit, clamped to
 /// +-1.2; kUnknown in the dark and where too few neighbours are seen. Index (frame * texels + texel) * 3 + channel.
 std::vector<std::int8_t> deviations(const RectifiedStack& stack, const SurfaceMask& already) {
@@ -48,6 +53,7 @@ std::vector<std::int8_t> deviations(const RectifiedStack& stack, const SurfaceMa
   const AxisFrame axes(stack.axis);
   const float dark = dark_floor(stack);
   std::vector<std::int8_t> result(frames * texels * 3, kUnknown);
+  const std::size_t step = frame_step(frames);
   // The neighbours of a frame along the turn are the same for all texels.
   std::vector<std::vector<std::size_t>> neighbours(frames);
   for (std::size_t f = 0; f < frames; ++f) {
@@ -79,7 +85,7 @@ std::vector<std::int8_t> deviations(const RectifiedStack& stack, const SurfaceMa
         }
       }
       const float darkest = std::log(3 * dark);
-      for (std::size_t f = 0; f < frames; ++f) {
+      for (std::size_t f = 0; f < frames; f += step) {
         if (usable[f] == 0) continue;
         for (std::size_t c = 0; c < 3; ++c) {
           around.clear();
@@ -133,7 +139,7 @@ std::vector<float> body_deviation(const RectifiedStack& stack, const SurfaceMask
       const Vec2 disc = disc_of_pixel(x, y, size);
       if (disc.norm() >= 0.995) continue;
       for (auto& values : seen) values.clear();
-      for (std::size_t f = 0; f < frames; ++f) {
+      for (std::size_t f = 0; f < frames; f += frame_step(frames)) {
         const double c = std::cos(stack.angles[f]);
         const double s = std::sin(stack.angles[f]);
         const Vec2 p = pixel_of_disc(Vec2(c * disc.x() - s * disc.y(), s * disc.x() + c * disc.y()), fine);
@@ -147,7 +153,7 @@ std::vector<float> body_deviation(const RectifiedStack& stack, const SurfaceMask
       }
       float strongest = 0;
       for (auto& values : seen) {
-        if (values.size() * 4 < frames || values.size() < 6) continue;
+        if (values.size() * 4 * frame_step(frames) < frames || values.size() < 6) continue;
         std::ranges::sort(values);
         const float middle = values[values.size() / 2];
         // The quantile on the side of 0 that a quarter of the frames may still fall short of.
