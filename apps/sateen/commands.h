@@ -12,5 +12,7 @@ void add_amc_info(CLI::App& parent);
 void add_amc_pictures(CLI::App& parent);
 void add_amc_symmetry(CLI::App& parent);
 void add_capture_build(CLI::App& parent);
+void add_capture_calibrate(CLI::App& parent);
+void add_capture_live(CLI::App& parent);
 
 }  // namespace sateen::cli

@@ -156,7 +156,7 @@ class Builder {
       // Shading changes the detail slowly along the turn: blur stands out against the frames around.
       std::vector<double> near;
       for (std::size_t j = i > 4 ? i - 4 : 0; j < std::min(notes_.size(), i + 5); ++j) near.push_back(sharpness[j]);
-      if (sharpness[i] < 0.6 * median(near)) frame.dropped = "blurred";
+      if (sharpness[i] < 0.7 * median(near)) frame.dropped = "blurred";
     }
   }
 
@@ -263,7 +263,7 @@ class Builder {
     if (found.widest > std::max(radians(25), 3.5 * even)) {
       throw Error(fmt::format(
           "the turn is not complete: the frames cover {:.0f} of {:.0f} degrees and leave a gap of {:.0f}. Turn the sphere "
-          "all the way round",
+          "all the way round; if it did, its surface shows too little detail to follow: say how it turned with --angles",
           degrees(period - found.widest + found.median), degrees(period), degrees(found.widest)));
     }
     if (found.widest > std::max(radians(10), 2.5 * even)) {

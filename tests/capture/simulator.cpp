@@ -3,12 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+#include <map>
 #include <random>
 
 #include <fmt/format.h>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
+#include <opencv2/videoio.hpp>
 
 #include "sateen/core/colour.h"
 #include "sateen/core/direction.h"
@@ -141,6 +142,40 @@ Picture8 Simulation::render(int frame) const {
     return background(pixel.x(), pixel.y());
   };
 
+  // The background is the same in all frames of a size; drawing it once is what makes the simulator quick.
+  static std::map<std::pair<int, int>, cv::Mat> backgrounds;
+  cv::Mat& plain = backgrounds[{width, height}];
+  if (plain.empty()) {
+    plain.create(height, width, CV_32FC3);
+    for (int y = 0; y < height; ++y) {
+      for (int x = 0; x < width; ++x) {
+        const Vec3 light = background(x + 0.5, y + 0.5);
+        plain.at<cv::Vec3f>(y, x) = {static_cast<float>(light.x()), static_cast<float>(light.y()),
+                                     static_cast<float>(light.z())};
+      }
+    }
+  }
+  const auto still = [&](int x, int y) -> cv::Vec3f {
+    const double sx = x + 0.5 - move.x();
+    const double sy = y + 0.5 - move.y();
+    if (stand && std::abs(sx - centre.x()) < 9 && sy > centre.y()) return {0.5f, 0.5f, 0.52f};
+    const int bx = std::clamp(static_cast<int>(sx), 0, width - 1);
+    const int by = std::clamp(static_cast<int>(sy), 0, height - 1);
+    return plain.at<cv::Vec3f>(by, bx);
+  };
+  static const std::vector<float> bells = [] {
+    std::mt19937 random(5);
+    std::normal_distribution<float> sensor(0, 1);
+    std::vector<float> values(1 << 16);
+    for (float& v : values) v = sensor(random);
+    return values;
+  }();
+  static const std::vector<float> encode = [] {
+    std::vector<float> values;
+    for (int i = 0; i <= 8192; ++i) values.push_back(255 * srgb_encode(static_cast<float>(i) / 8192.0f));
+    return values;
+  }();
+
   cv::Mat image(height, width, CV_32FC3);
   parallel_for(height, [&](int y) {
     for (int x = 0; x < width; ++x) {
@@ -148,7 +183,11 @@ Picture8 Simulation::render(int frame) const {
       const Vec2 p(x + 0.5, y + 0.5);
       const double from_centre = (p - move - seen_centre).norm();
       const bool fine = from_centre < 1.06 * radius || (second_sphere && (p - move - twin_centre).norm() < radius);
-      const int n = fine ? (std::abs(from_centre - radius) < 3 ? 4 : 2) : 1;
+      const int n = fine ? (std::abs(from_centre - radius) < 3 ? 4 : samples) : 1;
+      if (!fine) {
+        image.at<cv::Vec3f>(y, x) = still(x, y);
+        continue;
+      }
       for (int v = 0; v < n; ++v) {
         for (int u = 0; u < n; ++u) sum += light_at({x + (u + 0.5) / n, y + (v + 0.5) / n});
       }
@@ -160,8 +199,7 @@ Picture8 Simulation::render(int frame) const {
   const double sigma = std::hypot(blur, shake ? 4.0 : 0.0);
   if (sigma > 0) cv::GaussianBlur(image, image, {}, sigma);
 
-  std::mt19937 random(seed * 1000003u + static_cast<std::uint32_t>(frame));
-  std::normal_distribution<double> sensor(0, 1);
+  std::minstd_rand random(seed * 1000003u + static_cast<std::uint32_t>(frame) + 1);
   const Vec3 exposed = gain(frame);
   Picture8 picture;
   picture.width = width;
@@ -170,8 +208,8 @@ Picture8 Simulation::render(int frame) const {
     for (int x = 0; x < width; ++x) {
       for (int c = 0; c < 3; ++c) {
         const double light = static_cast<double>(image.at<cv::Vec3f>(y, x)[c]) * exposed[c];
-        double code = 255 * static_cast<double>(srgb_encode(static_cast<float>(light)));
-        code += noise * sensor(random);
+        double code = static_cast<double>(encode[static_cast<std::size_t>(std::clamp(light, 0.0, 1.0) * 8192)]);
+        if (noise > 0) code += noise * static_cast<double>(bells[random() >> 8 & 0xffff]);
         picture.rgb.push_back(static_cast<std::uint8_t>(std::clamp(code + 0.5, 0.0, 255.0)));
       }
     }
@@ -186,6 +224,17 @@ void Simulation::write(const std::filesystem::path& folder) const {
     cv::Mat bgr;
     cv::cvtColor(rgb, bgr, cv::COLOR_RGB2BGR);
     cv::imwrite((folder / fmt::format("frame_{:03}.png", i)).string(), bgr, {cv::IMWRITE_PNG_COMPRESSION, 1});
+  }
+}
+
+void write_video(const Simulation& s, const std::filesystem::path& path) {
+  cv::VideoWriter writer(path.string(), cv::VideoWriter::fourcc('M', 'J', 'P', 'G'), 24, {s.width, s.height});
+  writer.set(cv::VIDEOWRITER_PROP_QUALITY, 97);
+  for (int i = 0; i < s.frames; ++i) {
+    Picture8 picture = s.render(i);
+    cv::Mat bgr;
+    cv::cvtColor(cv::Mat(s.height, s.width, CV_8UC3, picture.rgb.data()), bgr, cv::COLOR_RGB2BGR);
+    writer.write(bgr);
   }
 }
 

@@ -42,6 +42,7 @@ struct Simulation {
   Vec2 camera_move{0, 0};          // pixels by which the picture jumps half-way
   bool second_sphere = false;
   bool sphere = true;
+  int samples = 2;                 // along each side of a pixel inside the sphere
   std::uint32_t seed = 7;
 
   Camera camera() const { return Camera::pinhole(width, height, focal); }
@@ -57,6 +58,9 @@ struct Simulation {
   /// The light of the material for an eye-frame normal and tangent, exposure included.
   Vec3 material(const Vec3& normal, const Vec3& tangent) const;
 };
+
+/// The frames as a Motion JPEG video.
+void write_video(const Simulation& simulation, const std::filesystem::path& path);
 
 /// Peak signal-to-noise ratio (dB, peak 1) of a table against the material inside 0.97 of the disc.
 double table_psnr(const AmcTable& table, const Simulation& truth, const std::vector<std::uint8_t>& seen);
