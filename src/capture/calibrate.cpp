@@ -23,13 +23,15 @@ Calibration calibrate(const std::vector<std::filesystem::path>& pictures, int co
     Picture8 picture = read_picture8(path);
     if (size.empty()) size = {picture.width, picture.height};
     if (size != cv::Size(picture.width, picture.height)) {
-      throw Error(fmt::format("{}: is {} x {}, the first picture is {} x {}", path.string(), picture.width, picture.height,
-                              size.width, size.height));
+      throw Error(fmt::format("{}: is {} x {}, the first picture is {} x {}", path.string(), picture.width,
+                              picture.height, size.width, size.height));
     }
     cv::Mat grey;
-    cv::cvtColor(cv::Mat(picture.height, picture.width, CV_8UC3, picture.rgb.data()), grey, cv::COLOR_RGB2GRAY);
+    cv::cvtColor(cv::Mat(picture.height, picture.width, CV_8UC3, picture.rgb.data()), grey,
+                 cv::COLOR_RGB2GRAY);
     std::vector<cv::Point2f> corners;
-    if (!cv::findChessboardCorners(grey, board, corners, cv::CALIB_CB_ADAPTIVE_THRESH | cv::CALIB_CB_NORMALIZE_IMAGE)) {
+    if (!cv::findChessboardCorners(grey, board, corners,
+                                   cv::CALIB_CB_ADAPTIVE_THRESH | cv::CALIB_CB_NORMALIZE_IMAGE)) {
       result.unusable.push_back(path.filename().string());
       continue;
     }
@@ -38,9 +40,10 @@ Calibration calibrate(const std::vector<std::filesystem::path>& pictures, int co
     seen.push_back(corners);
   }
   if (seen.size() < 5) {
-    throw Error(fmt::format("a chessboard with {} x {} inner corners is found in {} of {} pictures; at least 5 are needed, in "
-                            "different poses, with the whole board visible",
-                            columns, rows, seen.size(), pictures.size()));
+    throw Error(fmt::format(
+        "a chessboard with {} x {} inner corners is found in {} of {} pictures; at least 5 are needed, in "
+        "different poses, with the whole board visible",
+        columns, rows, seen.size(), pictures.size()));
   }
   const std::vector<std::vector<cv::Point3f>> boards(seen.size(), flat);
   cv::Mat matrix = cv::Mat::eye(3, 3, CV_64F);
@@ -49,9 +52,10 @@ Calibration calibrate(const std::vector<std::filesystem::path>& pictures, int co
   std::vector<cv::Mat> translations;
   result.rms_pixels = cv::calibrateCamera(boards, seen, size, matrix, distortion, rotations, translations);
   if (!(result.rms_pixels < 2)) {
-    throw Error(fmt::format("the calibration does not fit: corners are off by {:.1f} pixels. Is the board flat, and is it "
-                            "{} x {} inner corners?",
-                            result.rms_pixels, columns, rows));
+    throw Error(fmt::format(
+        "the calibration does not fit: corners are off by {:.1f} pixels. Is the board flat, and is it "
+        "{} x {} inner corners?",
+        result.rms_pixels, columns, rows));
   }
   result.used = static_cast<int>(seen.size());
   Camera& camera = result.camera;

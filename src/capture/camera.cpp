@@ -85,7 +85,8 @@ Camera read_camera(const std::filesystem::path& path) {
     }
     return camera;
   } catch (const nlohmann::json::exception&) {
-    throw Error(fmt::format("{}: is no camera calibration; make one with sateen capture calibrate", path.string()));
+    throw Error(
+        fmt::format("{}: is no camera calibration; make one with sateen capture calibrate", path.string()));
   }
 }
 

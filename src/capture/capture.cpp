@@ -10,6 +10,7 @@
 
 #include "sateen/capture/angles.h"
 #include "sateen/capture/measure.h"
+#include "sateen/capture/mirror_ball.h"
 #include "sateen/capture/weave.h"
 #include "sateen/core/direction.h"
 #include "sateen/core/error.h"
@@ -18,9 +19,10 @@
 namespace sateen {
 namespace {
 
-constexpr double kAssumedFov = 60;               // degrees: common for webcams
+constexpr double kAssumedFov = 60;  // degrees: common for webcams
 constexpr double kRegistrationNoise = radians(0.25);
-constexpr int kSymmetrySlices = 48;              // divisible by 2, 3 and 4
+constexpr int kEnvironmentWidth = 512;
+constexpr int kSymmetrySlices = 48;  // divisible by 2, 3 and 4
 
 double median(std::vector<double> values) {
   const auto half = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
@@ -28,8 +30,8 @@ double median(std::vector<double> values) {
   return *half;
 }
 
-/// The camera from the best source there is; a guess comes with a warning that says what it may cost.
-Camera choose_camera(const FrameSource& source, const CaptureOptions& options, std::vector<std::string>& warnings) {
+/// The camera from the best source there is.
+Camera choose_camera(const FrameSource& source, const CaptureOptions& options) {
   const int width = source.width();
   const int height = source.height();
   if (options.camera) {
@@ -52,19 +54,15 @@ Camera choose_camera(const FrameSource& source, const CaptureOptions& options, s
   const LensNotes notes = source.is_video() ? LensNotes{} : read_lens_notes(source.path(0));
   const double focal_mm = options.focal_mm > 0 ? options.focal_mm : notes.focal_mm;
   if (focal_mm > 0 && options.sensor_mm > 0) {
-    return pinhole(focal_of_lens(width, focal_mm, options.sensor_mm),
-                   options.focal_mm > 0 ? "focal length and sensor given" : "EXIF focal length, sensor given");
+    return pinhole(
+        focal_of_lens(width, focal_mm, options.sensor_mm),
+        options.focal_mm > 0 ? "focal length and sensor given" : "EXIF focal length, sensor given");
   }
   // A 35 mm equivalent is by the diagonal of 36 x 24 mm, as camera makers state it.
   const double diagonal = std::hypot(width, height);
   if (options.focal_mm <= 0 && notes.focal_35mm > 0) {
     return pinhole(notes.focal_35mm * diagonal / std::hypot(36.0, 24.0), "EXIF 35 mm equivalent");
   }
-  warnings.push_back(fmt::format(
-      "the lens is unknown, so a horizontal field of view of {:.0f} degrees was assumed. With a lens twice as long "
-      "normals half-way to the rim would be off by about as much as the assumed perspective bends them. Give "
-      "--focal-mm with --sensor-mm, --fov, or a calibration (sateen capture calibrate)",
-      kAssumedFov));
   return pinhole(focal_of_fov(width, radians(kAssumedFov)), "assumed");
 }
 
@@ -94,7 +92,8 @@ Wobble fit_wobble(const std::vector<Vec2>& centres, const std::vector<double>& a
     wobble.cosine = solution.row(1).transpose();
     wobble.sine = solution.row(2).transpose();
     std::vector<double> errors;
-    for (std::size_t i = 0; i < centres.size(); ++i) errors.push_back((centres[i] - wobble.at(angles[i])).norm());
+    for (std::size_t i = 0; i < centres.size(); ++i)
+      errors.push_back((centres[i] - wobble.at(angles[i])).norm());
     const double scale = 3 * std::max(0.02, median(errors));
     double squares = 0;
     for (std::size_t i = 0; i < centres.size(); ++i) {
@@ -113,7 +112,7 @@ class Builder {
 
   CaptureResult run() {
     check_count();
-    result_.camera = choose_camera(source_, options_, result_.warnings);
+    result_.camera = choose_camera(source_, options_);
     look_ = first_look(source_, result_.camera, stage(0, 0.1));
     axes_ = eye_frame(-sphere_at(look_.camera, look_.centre, look_.outline.radius).centre.normalized());
     notes_ = measure_frames(source_, look_, axes_, stage(0.1, 0.45));
@@ -125,6 +124,7 @@ class Builder {
     rectify_frames();
     fix_zero();
     make_table();
+    if (!options_.mirror_ball.empty()) read_mirror_ball();
     warn_of_framing();
     for (const std::string& warning : source_.warnings()) result_.warnings.push_back(warning);
     return std::move(result_);
@@ -138,8 +138,8 @@ class Builder {
 
   void check_count() const {
     if (source_.count() >= kFewestCaptureFrames) return;
-    throw Error(fmt::format("only {} frames given; a turn needs at least {}, better 64 or more", source_.count(),
-                            kFewestCaptureFrames));
+    throw Error(fmt::format("only {} frames given; a turn needs at least {}, better 64 or more",
+                            source_.count(), kFewestCaptureFrames));
   }
 
   void drop_unread() {
@@ -155,7 +155,8 @@ class Builder {
       frame.sharpness = sharpness[i] / typical;
       // Shading changes the detail slowly along the turn: blur stands out against the frames around.
       std::vector<double> near;
-      for (std::size_t j = i > 4 ? i - 4 : 0; j < std::min(notes_.size(), i + 5); ++j) near.push_back(sharpness[j]);
+      for (std::size_t j = i > 4 ? i - 4 : 0; j < std::min(notes_.size(), i + 5); ++j)
+        near.push_back(sharpness[j]);
       if (sharpness[i] < 0.7 * median(near)) frame.dropped = "blurred";
     }
   }
@@ -171,7 +172,8 @@ class Builder {
   void find_angles() {
     const std::vector<std::size_t> indices = used();
     if (indices.size() < static_cast<std::size_t>(kFewestCaptureFrames)) {
-      throw Error(fmt::format("only {} of {} frames are sharp enough to be used", indices.size(), notes_.size()));
+      throw Error(
+          fmt::format("only {} of {} frames are sharp enough to be used", indices.size(), notes_.size()));
     }
     std::vector<SurfacePatch> patches;
     std::vector<double> known;
@@ -183,7 +185,8 @@ class Builder {
       }
       if (options_.angle_source == AngleSource::given) {
         if (options_.angles.size() != notes_.size()) {
-          throw Error(fmt::format("{} angles are given for {} frames", options_.angles.size(), notes_.size()));
+          throw Error(
+              fmt::format("{} angles are given for {} frames", options_.angles.size(), notes_.size()));
         }
         known.push_back(options_.angles[i]);
       }
@@ -193,8 +196,10 @@ class Builder {
       const double trust = median(turning.confidence);
       if (trust < 1.3 * turning.confidence_floor) {
         throw Error(
-            "the turning cannot be followed: the surface shows no detail (weave, grain, a seam) sharp enough. Stick a few "
-            "small marks on it outside the part that counts, or say how it turned: --angles equal or --angles FILE");
+            "the turning cannot be followed: the surface shows no detail (weave, grain, a seam) sharp "
+            "enough. Stick a few "
+            "small marks on it outside the part that counts, or say how it turned: --angles equal or "
+            "--angles FILE");
       }
     }
     result_.axis = turning.axis;
@@ -202,7 +207,8 @@ class Builder {
       CaptureFrame& frame = result_.frames[indices[k]];
       frame.turned = turning.angles[k];
       frame.confidence = turning.confidence[k];
-      if (known.empty() && turning.confidence[k] < turning.confidence_floor) frame.dropped = "its angle cannot be found";
+      if (known.empty() && turning.confidence[k] < turning.confidence_floor)
+        frame.dropped = "its angle cannot be found";
     }
     if (known.empty()) recognise_equal_steps();
     drop_duplicates();
@@ -234,8 +240,8 @@ class Builder {
     if (indices.size() < 2) return;
     std::vector<double> steps;
     for (std::size_t k = 1; k < indices.size(); ++k) {
-      steps.push_back(std::abs(
-          std::remainder(result_.frames[indices[k]].turned - result_.frames[indices[k - 1]].turned, 2 * kPi)));
+      steps.push_back(std::abs(std::remainder(
+          result_.frames[indices[k]].turned - result_.frames[indices[k - 1]].turned, 2 * kPi)));
     }
     const double typical = median(steps);
     std::size_t kept = indices[0];
@@ -254,22 +260,26 @@ class Builder {
     std::vector<double> angles;
     for (const std::size_t i : used()) angles.push_back(result_.frames[i].turned);
     if (angles.size() < static_cast<std::size_t>(kFewestCaptureFrames)) {
-      throw Error(fmt::format("only {} of {} frames can be used; the others are blurred, repeated or not to be registered",
-                              angles.size(), notes_.size()));
+      throw Error(fmt::format(
+          "only {} of {} frames can be used; the others are blurred, repeated or not to be registered",
+          angles.size(), notes_.size()));
     }
     const double period = 2 * kPi / options_.symmetry.value_or(1);
     const Coverage found = coverage(angles, period);
     const double even = period / static_cast<double>(angles.size());
     if (found.widest > std::max(radians(25), 3.5 * even)) {
-      throw Error(fmt::format(
-          "the turn is not complete: the frames cover {:.0f} of {:.0f} degrees and leave a gap of {:.0f}. Turn the sphere "
-          "all the way round; if it did, its surface shows too little detail to follow: say how it turned with --angles",
-          degrees(period - found.widest + found.median), degrees(period), degrees(found.widest)));
+      throw Error(
+          fmt::format("the turn is not complete: the frames cover {:.0f} of {:.0f} degrees and leave a gap "
+                      "of {:.0f}. Turn the sphere "
+                      "all the way round; if it did, its surface shows too little detail to follow: say how "
+                      "it turned with --angles",
+                      degrees(period - found.widest + found.median), degrees(period), degrees(found.widest)));
     }
     if (found.widest > std::max(radians(10), 2.5 * even)) {
-      result_.warnings.push_back(fmt::format(
-          "between two frames the sphere turned by {:.0f} degrees: the material is interpolated there. Turn it more evenly",
-          degrees(found.widest)));
+      result_.warnings.push_back(
+          fmt::format("between two frames the sphere turned by {:.0f} degrees: the material is interpolated "
+                      "there. Turn it more evenly",
+                      degrees(found.widest)));
     }
   }
 
@@ -293,19 +303,22 @@ class Builder {
     for (std::size_t i = 0; i < result_.frames.size(); ++i) {
       CaptureFrame& frame = result_.frames[i];
       frame.radius = radius;
-      frame.centre = circular && frame.dropped.empty() ? wobble.at(frame.turned) : Vec2(notes_[i].centre * factor);
+      frame.centre =
+          circular && frame.dropped.empty() ? wobble.at(frame.turned) : Vec2(notes_[i].centre * factor);
     }
     result_.sphere = sphere_at(result_.camera, wobble.middle, radius);
     if (!circular) {
-      result_.warnings.push_back(fmt::format(
-          "the sphere does not turn about a fixed axis (its picture strays by {:.1f} pixels from a circle): the stand may "
-          "have been touched. Each frame was measured alone",
-          wobble.rms));
+      result_.warnings.push_back(
+          fmt::format("the sphere does not turn about a fixed axis (its picture strays by {:.1f} pixels from "
+                      "a circle): the stand may "
+                      "have been touched. Each frame was measured alone",
+                      wobble.rms));
     }
     if (support < 0.5) {
-      result_.warnings.push_back(fmt::format(
-          "only {:.0f} % of the outline stands out against the background: put something plain behind the sphere",
-          100 * support));
+      result_.warnings.push_back(
+          fmt::format("only {:.0f} % of the outline stands out against the background: put something plain "
+                      "behind the sphere",
+                      100 * support));
     }
   }
 
@@ -317,18 +330,21 @@ class Builder {
     for (std::size_t i = 0; i < result_.frames.size(); ++i) result_.frames[i].gain = photometry.gain[i];
     if (!photometry.measured) {
       result_.warnings.push_back(
-          "too little of the picture stands still and is lit, so exposure drift was not removed. Leave some lit background "
+          "too little of the picture stands still and is lit, so exposure drift was not removed. Leave some "
+          "lit background "
           "around the sphere, or fix the camera's exposure");
     }
     if (photometry.drift > 0.15) {
-      result_.warnings.push_back(fmt::format(
-          "the exposure changes by up to {:.0f} %: the light flickers or the camera adapts. It was removed; fix exposure and "
-          "white balance for less noise",
-          100 * photometry.drift));
+      result_.warnings.push_back(
+          fmt::format("the exposure changes by up to {:.0f} %: the light flickers or the camera adapts. It "
+                      "was removed; fix exposure and "
+                      "white balance for less noise",
+                      100 * photometry.drift));
     }
     if (photometry.banding > 0.02) {
       result_.warnings.push_back(fmt::format(
-          "the upper and lower half of the picture flicker apart by {:.1f} %: a lamp pulses faster than the camera reads a "
+          "the upper and lower half of the picture flicker apart by {:.1f} %: a lamp pulses faster than the "
+          "camera reads a "
           "frame. Use a flicker-free lamp or an exposure of a whole mains period (1/50 or 1/60 s)",
           100 * photometry.banding));
     }
@@ -376,9 +392,10 @@ class Builder {
     }
     result_.clipped_share = samples > 0 ? clipped / samples : 0;
     if (result_.clipped_share > 0.01) {
-      result_.warnings.push_back(fmt::format(
-          "{:.1f} % of the material is clipped: highlights will look flat. Expose shorter, or bracket exposures",
-          100 * result_.clipped_share));
+      result_.warnings.push_back(
+          fmt::format("{:.1f} % of the material is clipped: highlights will look flat. Expose shorter, or "
+                      "bracket exposures",
+                      100 * result_.clipped_share));
     }
     if (!options_.mask.empty()) read_painted_mask();
     if (options_.find_blemishes) find_seams();
@@ -393,16 +410,17 @@ class Builder {
   void read_painted_mask() {
     const Image painting = read_data(options_.mask);
     if (painting.width != source_.width() || painting.height != source_.height()) {
-      throw Error(fmt::format("{}: is {} x {}, the frames are {} x {}", options_.mask.string(), painting.width,
-                              painting.height, source_.width(), source_.height()));
+      throw Error(fmt::format("{}: is {} x {}, the frames are {} x {}", options_.mask.string(),
+                              painting.width, painting.height, source_.width(), source_.height()));
     }
     if (options_.mask_frame < 0 || options_.mask_frame >= static_cast<int>(result_.frames.size())) {
       throw Error(fmt::format("the mask is said to be painted on frame {}, there are {}", options_.mask_frame,
                               result_.frames.size()));
     }
     const CaptureFrame& frame = result_.frames[static_cast<std::size_t>(options_.mask_frame)];
-    result_.mask = mask_from_painting(painting, result_.camera, sphere_at(result_.camera, frame.centre, frame.radius),
-                                      result_.axis, frame.turned, options_.size);
+    result_.mask =
+        mask_from_painting(painting, result_.camera, sphere_at(result_.camera, frame.centre, frame.radius),
+                           result_.axis, frame.turned, options_.size);
   }
 
   void find_seams() {
@@ -410,10 +428,11 @@ class Builder {
     // Once more without what was found, so that it no longer pulls the medians.
     if (found.share > 0) found = find_blemishes(stack_, united(result_.mask, found));
     if (found.share > 0.4) {
-      result_.warnings.push_back(fmt::format(
-          "the surface is so uneven that {:.0f} % of it would count as seam; nothing was masked. Paint a mask on one frame "
-          "(--mask) if there is a seam",
-          100 * found.share));
+      result_.warnings.push_back(
+          fmt::format("the surface is so uneven that {:.0f} % of it would count as seam; nothing was masked. "
+                      "Paint a mask on one frame "
+                      "(--mask) if there is a seam",
+                      100 * found.share));
       return;
     }
     result_.mask = united(found, result_.mask);
@@ -423,17 +442,21 @@ class Builder {
     first_angle_ = options_.zero_angle;
     switch (options_.zero) {
       case ZeroAngle::first_frame:
-        result_.zero_source = options_.zero_given ? "angle of the first frame given" : "not given: first frame is 0";
+        result_.zero_source =
+            options_.zero_given ? "angle of the first frame given" : "not given: first frame is 0";
         if (!options_.zero_given) {
           result_.warnings.push_back(
-              "the tangent's direction is unknown, so the first frame's was called 0 degrees. Give --first-angle, or "
-              "--thread-direction read off a picture, or --tangent-from-seam when the cloth is sewn at a pole");
+              "the tangent's direction is unknown, so the first frame's was called 0 degrees. Give "
+              "--first-angle, or "
+              "--thread-direction read off a picture, or --tangent-from-seam when the cloth is sewn at a "
+              "pole");
         }
         break;
       case ZeroAngle::thread: {
         const auto count = static_cast<int>(result_.frames.size());
         if (options_.zero_frame < 0 || options_.zero_frame >= count) {
-          throw Error(fmt::format("the thread is read off frame {}, there are {}", options_.zero_frame, count));
+          throw Error(
+              fmt::format("the thread is read off frame {}, there are {}", options_.zero_frame, count));
         }
         first_angle_ -= result_.frames[static_cast<std::size_t>(options_.zero_frame)].turned;
         result_.zero_source = "thread direction read off a frame";
@@ -443,28 +466,32 @@ class Builder {
         double direction = 0;
         if (!mask_direction(result_.mask, direction)) {
           throw Error(
-              "no seam found to one side of the sphere's middle, so the tangent cannot be taken from it; paint it on one "
+              "no seam found to one side of the sphere's middle, so the tangent cannot be taken from it; "
+              "paint it on one "
               "frame (--mask) or give --first-angle");
         }
         first_angle_ += direction;
-        result_.zero_source = fmt::format("seam found at {:.1f} degrees in the first frame", degrees(direction));
+        result_.zero_source =
+            fmt::format("seam found at {:.1f} degrees in the first frame", degrees(direction));
         break;
       }
       case ZeroAngle::weave: {
         double direction = 0;
         if (!weave_direction(stack_, direction)) {
-          throw Error("no weave is visible to take the tangent from; give --first-angle or --thread-direction");
+          throw Error(
+              "no weave is visible to take the tangent from; give --first-angle or --thread-direction");
         }
         first_angle_ += direction;
-        result_.zero_source = fmt::format("weave found at {:.1f} degrees in the first frame", degrees(direction));
+        result_.zero_source =
+            fmt::format("weave found at {:.1f} degrees in the first frame", degrees(direction));
         break;
       }
     }
     for (CaptureFrame& frame : result_.frames) frame.angle = wrap(first_angle_ + frame.turned, 2 * kPi);
   }
 
-  /// What a seam hid says nothing about symmetry: there the slice half a turn on stands in, which for R = 2 and 4 is as
-  /// good as leaving it out.
+  /// What a seam hid says nothing about symmetry: there the slice half a turn on stands in, which for R = 2
+  /// and 4 is as good as leaving it out.
   void take_unseen_from_opposite(AssembledSlices& whole) const {
     const auto texels = static_cast<std::size_t>(options_.size) * static_cast<std::size_t>(options_.size);
     const std::vector<Image> original = whole.slices;
@@ -508,20 +535,65 @@ class Builder {
     report(options_.progress, 1);
   }
 
+  /// The ball stands where the sphere stood, perhaps a little larger or smaller.
+  void read_mirror_ball() {
+    FrameSource source = FrameSource::open({options_.mirror_ball}, options_.source);
+    if (source.width() != source_.width() || source.height() != source_.height()) {
+      throw Error(fmt::format("{}: is {} x {}, the frames are {} x {}", options_.mirror_ball.string(),
+                              source.width(), source.height(), source_.width(), source_.height()));
+    }
+    const Frame frame = source.read(0);
+    const GreyPicture grey = grey_picture(frame, look_.factor);
+    Vec2 centre = look_.centre;
+    double radius = look_.outline.radius;
+    double support = 0;
+    for (const double reach : {0.15 * radius, 6.0, 3.0}) {
+      const OutlineOffset offset = measure_outline(grey, 1, look_.outline.plate, look_.camera,
+                                                   sphere_at(look_.camera, centre, radius), reach, false);
+      centre += offset.shift;
+      radius += offset.growth;
+      support = offset.support;
+    }
+    if (support < 0.4) {
+      throw Error(fmt::format("{}: no ball is found where the sphere stood; put it on the same stand",
+                              options_.mirror_ball.string()));
+    }
+    const SphereView ball = sphere_at(result_.camera, centre * look_.factor, radius * look_.factor);
+    result_.environment =
+        mirror_ball_environment(frame, result_.camera, ball, kEnvironmentWidth, options_.mirror_reflectance);
+  }
+
+  /// What a wrong guess of the lens costs grows with how much of the view the sphere fills.
+  void warn_of_lens() {
+    const double half = result_.sphere.half_angle();
+    const double bend = std::abs(std::sin(std::atan(0.5 * std::tan(half))) / std::sin(half) - 0.5);
+    result_.warnings.push_back(
+        fmt::format("the lens is unknown, so a horizontal field of view of {:.0f} degrees was assumed. If it "
+                    "is much longer, normals are "
+                    "off by about {:.1f} and tangents by about {:.1f} degrees half-way to the rim. Give "
+                    "--focal-mm with --sensor-mm, "
+                    "--fov, or a calibration (sateen capture calibrate)",
+                    kAssumedFov, degrees(bend), degrees(half / 2)));
+  }
+
   void warn_of_framing() {
     const double radius = look_.outline.radius * look_.factor;
     const double fills = 200 * radius / source_.height();
     if (fills < 35 || 2 * radius < 1.2 * options_.size) {
-      result_.warnings.push_back(fmt::format(
-          "the sphere fills {:.0f} % of the picture's height ({:.0f} pixels for {} texels): move closer or use a longer lens",
-          fills, 2 * radius, options_.size));
+      result_.warnings.push_back(
+          fmt::format("the sphere fills {:.0f} % of the picture's height ({:.0f} pixels for {} texels): move "
+                      "closer or use a longer lens",
+                      fills, 2 * radius, options_.size));
     }
-    const double towards = degrees(std::acos(std::clamp(-result_.axis.dot(result_.sphere.centre.normalized()), -1.0, 1.0)));
+    if (result_.camera.focal_source == "assumed") warn_of_lens();
+    const double towards =
+        degrees(std::acos(std::clamp(-result_.axis.dot(result_.sphere.centre.normalized()), -1.0, 1.0)));
     if (towards > 5) {
-      result_.warnings.push_back(fmt::format(
-          "the turning axis points {:.1f} degrees past the camera: parts of the material are seen only in part of the turn. "
-          "Point the axis at the lens",
-          towards));
+      result_.warnings.push_back(
+          fmt::format("the turning axis points {:.1f} degrees past the camera: parts of the material are "
+                      "seen only in part of the turn. "
+                      "Point the axis at the lens",
+                      towards));
     }
   }
 

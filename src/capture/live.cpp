@@ -21,7 +21,8 @@ class V4lCamera final : public LiveCamera {
  public:
   explicit V4lCamera(int index) {
     if (!capture_.open(index, cv::CAP_V4L2)) {
-      throw Error(fmt::format("no camera {} answers (V4L2); look at /dev/video* and whether another program uses it", index));
+      throw Error(fmt::format(
+          "no camera {} answers (V4L2); look at /dev/video* and whether another program uses it", index));
     }
     capture_.set(cv::CAP_PROP_BUFFERSIZE, 1);
     // Let it adapt to the scene once, then hold it there.
@@ -36,7 +37,8 @@ class V4lCamera final : public LiveCamera {
     cv::Mat frame;
     // The driver may still hold frames from while the stage moved.
     for (int i = 0; i < 3; ++i) {
-      if (!capture_.read(frame) || frame.empty()) throw Error("the camera delivers no more pictures; is it still plugged in?");
+      if (!capture_.read(frame) || frame.empty())
+        throw Error("the camera delivers no more pictures; is it still plugged in?");
     }
     Picture8 picture;
     picture.width = frame.cols;
@@ -55,7 +57,8 @@ class V4lCamera final : public LiveCamera {
     if (capture_.set(automatic, manual)) {
       capture_.set(property, now);
     } else {
-      warnings_.push_back(fmt::format("the camera's driver does not let its {} be fixed; drift is removed afterwards", name));
+      warnings_.push_back(
+          fmt::format("the camera's driver does not let its {} be fixed; drift is removed afterwards", name));
     }
   }
 
@@ -89,8 +92,9 @@ void check_plan(const fs::path& folder, int frames) {
     throw Error(fmt::format("{}: is no capture's plan; choose another folder", plan.string()));
   }
   if (planned != frames) {
-    throw Error(fmt::format("{}: holds a capture of {} frames; resume it with --frames {} or choose another folder",
-                            folder.string(), planned, planned));
+    throw Error(
+        fmt::format("{}: holds a capture of {} frames; resume it with --frames {} or choose another folder",
+                    folder.string(), planned, planned));
   }
 }
 

@@ -9,7 +9,8 @@
 namespace sateen {
 
 Vec3 mirror_normal(const SphereView& ball, const Vec3& towards) {
-  // The half vector of light and eye; the eye's direction depends a little on where the normal is, so it is iterated.
+  // The half vector of light and eye; the eye's direction depends a little on where the normal is, so it is
+  // iterated.
   Vec3 normal = -ball.centre.normalized();
   for (int i = 0; i < 30; ++i) {
     const Vec3 to_eye = -(ball.centre + normal).normalized();

@@ -18,13 +18,20 @@ namespace {
 
 speed_t speed_of(int baud) {
   switch (baud) {
-    case 9600: return B9600;
-    case 19200: return B19200;
-    case 38400: return B38400;
-    case 57600: return B57600;
-    case 115200: return B115200;
-    case 230400: return B230400;
-    default: throw Error(fmt::format("{} baud is no usual speed; GRBL speaks 115200", baud));
+    case 9600:
+      return B9600;
+    case 19200:
+      return B19200;
+    case 38400:
+      return B38400;
+    case 57600:
+      return B57600;
+    case 115200:
+      return B115200;
+    case 230400:
+      return B230400;
+    default:
+      throw Error(fmt::format("{} baud is no usual speed; GRBL speaks 115200", baud));
   }
 }
 

@@ -19,8 +19,8 @@ class SerialLine {
 
   /// Sends all of `text`. Throws Error when the device is gone.
   void send(const std::string& text);
-  /// The next line without its end, waiting at most `timeout`; nothing when none became complete. Throws Error when the
-  /// device is gone.
+  /// The next line without its end, waiting at most `timeout`; nothing when none became complete. Throws
+  /// Error when the device is gone.
   std::optional<std::string> receive(std::chrono::milliseconds timeout);
   /// Forgets what has arrived and not been read.
   void clear();

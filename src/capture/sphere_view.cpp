@@ -47,8 +47,9 @@ SeenPoint point_of_disc(const SphereView& sphere, const Vec2& disc, TableFrame f
     point.visible = disc.squaredNorm() < 1 && point.normal.dot(point.towards_eye) > 0;
     return point;
   }
-  // In the triangle eye, centre, point the law of sines ties the angle at the point, between normal and eye, to the
-  // angle at the eye: sin(ray angle) = sin(normal angle) / distance. So the disc is the picture seen in sines.
+  // In the triangle eye, centre, point the law of sines ties the angle at the point, between normal and eye,
+  // to the angle at the eye: sin(ray angle) = sin(normal angle) / distance. So the disc is the picture seen
+  // in sines.
   const double distance = sphere.distance();
   const double sine = std::min(1.0, disc.norm());
   const double ray_angle = std::asin(sine / distance);

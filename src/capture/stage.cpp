@@ -28,8 +28,8 @@ class GrblStage final : public Stage {
       greeted = text && text->starts_with("Grbl");
     }
     if (!greeted) {
-      throw Error(fmt::format("{}: nothing there greets as GRBL; check cable, device and --baud ({} tried)", device_,
-                              options_.baud));
+      throw Error(fmt::format("{}: nothing there greets as GRBL; check cable, device and --baud ({} tried)",
+                              device_, options_.baud));
     }
     unlock();
     try {
@@ -41,7 +41,9 @@ class GrblStage final : public Stage {
     }
   }
 
-  void stands_at(double degrees) override { command(fmt::format("G92 {}{:.4f}", options_.axis, units_of(degrees))); }
+  void stands_at(double degrees) override {
+    command(fmt::format("G92 {}{:.4f}", options_.axis, units_of(degrees)));
+  }
 
   void move_to(double degrees) override {
     const double units = units_of(degrees);
@@ -53,7 +55,8 @@ class GrblStage final : public Stage {
         break;
       } catch (const Alarm& alarm) {
         if (attempt > 0) {
-          throw Error(fmt::format("{}: the stage raised {} again after unlocking; look for what blocks it", device_, alarm.text));
+          throw Error(fmt::format("{}: the stage raised {} again after unlocking; look for what blocks it",
+                                  device_, alarm.text));
         }
         unlock();
       }
@@ -73,13 +76,15 @@ class GrblStage final : public Stage {
   void check(const std::string& text) const {
     if (text.starts_with("ALARM:")) throw Alarm{text};
     if (text.starts_with("error:")) {
-      throw Error(fmt::format("{}: the stage refused a command with {}; see GRBL's list of error codes", device_, text));
+      throw Error(fmt::format("{}: the stage refused a command with {}; see GRBL's list of error codes",
+                              device_, text));
     }
     if (text.starts_with("Grbl")) {
-      throw Error(fmt::format(
-          "{}: the controller restarted in the middle of the capture and lost its position (power, a touched reset?); turn the "
-          "stage back to its start and resume",
-          device_));
+      throw Error(
+          fmt::format("{}: the controller restarted in the middle of the capture and lost its position "
+                      "(power, a touched reset?); turn the "
+                      "stage back to its start and resume",
+                      device_));
     }
   }
 
@@ -120,7 +125,8 @@ class GrblStage final : public Stage {
       }
       std::this_thread::sleep_for(milliseconds(20));
     }
-    throw Error(fmt::format("{}: the stage did not come to rest within {} s", device_, options_.move_timeout.count() / 1000));
+    throw Error(fmt::format("{}: the stage did not come to rest within {} s", device_,
+                            options_.move_timeout.count() / 1000));
   }
 
   std::string device_;

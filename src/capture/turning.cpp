@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "sateen/capture/turning.h"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <complex>
 
-#include <Eigen/Cholesky>
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 
@@ -61,8 +61,8 @@ std::vector<cv::Mat> moving_detail(std::span<const SurfacePatch> patches) {
   return images;
 }
 
-/// Rows: rings from the middle outwards, each scaled by the square root of its length, zero mean; columns: angles
-/// counter-clockwise.
+/// Rows: rings from the middle outwards, each scaled by the square root of its length, zero mean; columns:
+/// angles counter-clockwise.
 cv::Mat polar(const cv::Mat& image) {
   cv::Mat result(kRings, kBins, CV_32F);
   for (int r = 0; r < kRings; ++r) {
@@ -121,7 +121,8 @@ void add_turned_back(cv::Mat& sum, const cv::Mat& spectrum, double angle, double
   std::vector<std::complex<float>> phase(kBins);
   for (int f = 0; f < kBins; ++f) {
     const int frequency = f <= kBins / 2 ? f : f - kBins;
-    phase[static_cast<std::size_t>(f)] = std::polar(static_cast<float>(sign), static_cast<float>(frequency * angle));
+    phase[static_cast<std::size_t>(f)] =
+        std::polar(static_cast<float>(sign), static_cast<float>(frequency * angle));
   }
   for (int r = 0; r < kRings; ++r) {
     const auto* in = spectrum.ptr<std::complex<float>>(r);
@@ -130,8 +131,8 @@ void add_turned_back(cv::Mat& sum, const cv::Mat& spectrum, double angle, double
   }
 }
 
-/// Angles about the disc's middle: each frame against the surface the frames before it have built, then twice more
-/// against all others.
+/// Angles about the disc's middle: each frame against the surface the frames before it have built, then twice
+/// more against all others.
 void register_about_middle(const std::vector<cv::Mat>& images, Turning& turning) {
   const std::size_t n = images.size();
   std::vector<cv::Mat> spectra(n);
@@ -160,7 +161,8 @@ void register_about_middle(const std::vector<cv::Mat>& images, Turning& turning)
       add_turned_back(surface, spectra[i], peaks[i].angle, 1);
     }
   }
-  // Correlation of unrelated surfaces: the peak of kBins tries among about that many times kRings / 4 free values.
+  // Correlation of unrelated surfaces: the peak of kBins tries among about that many times kRings / 4 free
+  // values.
   turning.confidence_floor = 3.3 / std::sqrt(kBins / 3.0 * kRings / 2.0);
 }
 
@@ -195,8 +197,8 @@ struct DiscNormals {
   }
 };
 
-/// Calls body(pixel of the surface (the disc at angle 0), its normal, the frame's value there) for every pixel that a frame
-/// turned by `rotation` shows inside its own disc.
+/// Calls body(pixel of the surface (the disc at angle 0), its normal, the frame's value there) for every
+/// pixel that a frame turned by `rotation` shows inside its own disc.
 template <class Body>
 void for_shown(const DiscNormals& disc, const cv::Mat& image, const Mat3& rotation, Body body) {
   const Eigen::Matrix3f turned = rotation.cast<float>();
@@ -220,8 +222,8 @@ void for_shown(const DiscNormals& disc, const cv::Mat& image, const Mat3& rotati
   }
 }
 
-/// One round of Lucas-Kanade: the surface from all frames, then each frame's rotation vector against it, then what of it
-/// is the axis.
+/// One round of Lucas-Kanade: the surface from all frames, then each frame's rotation vector against it, then
+/// what of it is the axis.
 double refine(const std::vector<cv::Mat>& images, Vec3& axis, std::vector<double>& angles, bool refine_angles,
               std::vector<double>& confidence) {
   const int size = images[0].cols;
@@ -290,8 +292,9 @@ double refine(const std::vector<cv::Mat>& images, Vec3& axis, std::vector<double
     confidence[f] = sums[9] / std::sqrt(std::max(1e-12, sums[10] * sums[11]));
   });
 
-  // Body rotation w of frame f, expressed in the camera: R w. A wrong axis a + d explains R(a + d) = R(a) exp(w) with
-  // w = (R^-1 - 1) (d x a) + c plus the angle's own error along the axis; c is the surface's free choice of pose.
+  // Body rotation w of frame f, expressed in the camera: R w. A wrong axis a + d explains R(a + d) = R(a)
+  // exp(w) with w = (R^-1 - 1) (d x a) + c plus the angle's own error along the axis; c is the surface's free
+  // choice of pose.
   Vec3 e1;
   Vec3 e2;
   frame_around(axis, e1, e2);
@@ -332,8 +335,8 @@ void refine_all(const std::vector<cv::Mat>& images, const Mat3& axes, bool refin
 
 }  // namespace
 
-SurfacePatch surface_patch(const GreyPicture& frame, const Camera& camera, const SphereView& sphere, const Mat3& axes,
-                           int size) {
+SurfacePatch surface_patch(const GreyPicture& frame, const Camera& camera, const SphereView& sphere,
+                           const Mat3& axes, int size) {
   cv::Mat light = cv::Mat::zeros(size, size, CV_32F);
   cv::Mat inside = cv::Mat::zeros(size, size, CV_32F);
   const Mat3 to_view = axes.transpose();
@@ -351,7 +354,8 @@ SurfacePatch surface_patch(const GreyPicture& frame, const Camera& camera, const
       const auto fx = static_cast<float>(cx - x0);
       const auto fy = static_cast<float>(cy - y0);
       const float top = light_of(frame.at(x0, y0)) * (1 - fx) + light_of(frame.at(x0 + 1, y0)) * fx;
-      const float bottom = light_of(frame.at(x0, y0 + 1)) * (1 - fx) + light_of(frame.at(x0 + 1, y0 + 1)) * fx;
+      const float bottom =
+          light_of(frame.at(x0, y0 + 1)) * (1 - fx) + light_of(frame.at(x0 + 1, y0 + 1)) * fx;
       light.at<float>(y, x) = top + fy * (bottom - top);
       inside.at<float>(y, x) = 1;
     }
@@ -373,7 +377,8 @@ SurfacePatch surface_patch(const GreyPicture& frame, const Camera& camera, const
       // In the dark the detail is noise: the floor keeps it small.
       const float detail = (light.at<float>(y, x) - mean) / (mean + 0.01f);
       const float bounded = std::clamp(detail, -1.0f, 1.0f);
-      patch.detail[static_cast<std::size_t>(y * size + x)] = static_cast<std::int8_t>(std::lround(bounded * 127));
+      patch.detail[static_cast<std::size_t>(y * size + x)] =
+          static_cast<std::int8_t>(std::lround(bounded * 127));
       squares += static_cast<double>(bounded * bounded);
       ++count;
     }

@@ -51,12 +51,12 @@ CaptureResult captured(const Simulation& s, const CaptureOptions& options) {
 }
 
 struct Errors {
-  double centre = 0;   // rms, pixels
-  double radius = 0;   // pixels
-  double axis = 0;     // pixels at the sphere's surface
-  double angle = 0;    // rms, degrees, up to a constant
+  double centre = 0;  // rms, pixels
+  double radius = 0;  // pixels
+  double axis = 0;    // pixels at the sphere's surface
+  double angle = 0;   // rms, degrees, up to a constant
   double angle_worst = 0;
-  double exposure = 0; // worst, share
+  double exposure = 0;  // worst, share
 };
 
 Errors errors_of(const CaptureResult& result, const Simulation& s) {
@@ -75,7 +75,8 @@ Errors errors_of(const CaptureResult& result, const Simulation& s) {
     const double off = degrees(std::remainder(frame.turned - s.angle(static_cast<int>(i)) - offset, 2 * kPi));
     e.angle += off * off / n;
     e.angle_worst = std::max(e.angle_worst, std::abs(off));
-    e.exposure = std::max(e.exposure, std::abs(frame.gain.y() / s.gain(static_cast<int>(i)).y() / std::exp(gain) - 1));
+    e.exposure =
+        std::max(e.exposure, std::abs(frame.gain.y() / s.gain(static_cast<int>(i)).y() / std::exp(gain) - 1));
   }
   e.centre = std::sqrt(e.centre);
   e.angle = std::sqrt(e.angle);
@@ -108,7 +109,8 @@ TEST(Capture, ModerateNuisances) {
     for (int x = 0; x < result.mask.size; ++x) {
       const Vec2 disc = disc_of_pixel(x, y, result.mask.size);
       if (disc.norm() > 0.95) continue;
-      const Vec3 body = disc.x() * x_axis + disc.y() * a.cross(x_axis) + std::sqrt(1 - disc.squaredNorm()) * a;
+      const Vec3 body =
+          disc.x() * x_axis + disc.y() * a.cross(x_axis) + std::sqrt(1 - disc.squaredNorm()) * a;
       const bool truth = s.in_seam(body);
       const bool found = result.mask.masks(disc);
       hit += truth && found ? 1 : 0;
@@ -169,7 +171,8 @@ TEST(Capture, BlurredAndRepeatedFramesAreDropped) {
   EXPECT_EQ(result.frames[9].dropped, "blurred");
   EXPECT_THAT(result.frames[20].dropped, testing::HasSubstr("same angle"));
   EXPECT_THAT(result.frames[21].dropped, testing::HasSubstr("same angle"));
-  EXPECT_EQ(std::ranges::count_if(result.frames, [](const CaptureFrame& f) { return f.dropped.empty(); }), 33);
+  EXPECT_EQ(std::ranges::count_if(result.frames, [](const CaptureFrame& f) { return f.dropped.empty(); }),
+            33);
 }
 
 TEST(Capture, StageAnglesAreEnoughWhereTheSurfaceIsPlain) {
@@ -214,7 +217,8 @@ TEST(Capture, APaintedMaskIsTrackedThroughTheTurn) {
   for (int y = 0; y < s.height; ++y) {
     for (int x = 0; x < s.width; ++x) {
       Vec3 n;
-      if (normal_at_pixel(s.camera(), sphere, {x + 0.5, y + 0.5}, n) && s.in_seam(back * n)) paint.at(x, y, 0) = 1;
+      if (normal_at_pixel(s.camera(), sphere, {x + 0.5, y + 0.5}, n) && s.in_seam(back * n))
+        paint.at(x, y, 0) = 1;
     }
   }
   const TemporaryFolder other;

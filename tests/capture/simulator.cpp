@@ -27,27 +27,39 @@ double hash(int x, int y, int z, std::uint32_t seed) {
   return (h ^ h >> 15) / 4294967296.0;
 }
 
-/// Trilinear noise in [-1, 1].
+/// Trilinear noise in [-1, 1] from a lattice that repeats after 64 cells.
 double grain(const Vec3& p, std::uint32_t seed) {
+  constexpr int kCells = 64;
+  static const std::vector<float> lattice = [] {
+    std::vector<float> values;
+    for (int i = 0; i < kCells * kCells * kCells; ++i)
+      values.push_back(static_cast<float>(2 * hash(i, 0, 0, 3) - 1));
+    return values;
+  }();
+  const int shift = static_cast<int>(seed * 17);
   const int x = static_cast<int>(std::floor(p.x()));
   const int y = static_cast<int>(std::floor(p.y()));
-  const int z = static_cast<int>(std::floor(p.z()));
-  double sum = 0;
-  for (int i = 0; i < 8; ++i) {
-    const int dx = i & 1;
-    const int dy = i >> 1 & 1;
-    const int dz = i >> 2;
-    const double w = (dx != 0 ? p.x() - x : 1 - (p.x() - x)) * (dy != 0 ? p.y() - y : 1 - (p.y() - y)) *
-                     (dz != 0 ? p.z() - z : 1 - (p.z() - z));
-    sum += w * (2 * hash(x + dx, y + dy, z + dz, seed) - 1);
-  }
-  return sum;
+  const int z = static_cast<int>(std::floor(p.z())) + shift;
+  const auto fx = static_cast<float>(p.x() - x);
+  const auto fy = static_cast<float>(p.y() - y);
+  const auto fz = static_cast<float>(p.z() - (z - shift));
+  const auto at = [&](int dx, int dy, int dz) {
+    const int index = (((z + dz) & 63) * kCells + ((y + dy) & 63)) * kCells + ((x + dx) & 63);
+    return lattice[static_cast<std::size_t>(index)];
+  };
+  const auto plane = [&](int dz) {
+    const float top = at(0, 0, dz) + fx * (at(1, 0, dz) - at(0, 0, dz));
+    const float bottom = at(0, 1, dz) + fx * (at(1, 1, dz) - at(0, 1, dz));
+    return top + fy * (bottom - top);
+  };
+  return static_cast<double>(plane(0) + fz * (plane(1) - plane(0)));
 }
 
 Vec3 background(double x, double y) {
   const double wide = grain({x / 60, y / 60, 0}, 1);
   const double fine = grain({x / 7, y / 7, 0}, 2);
-  const double line = std::fmod(x + 1000 + 20 * std::floor(y / 25), 40) < 2 || std::fmod(y + 1000, 25) < 2 ? 0.15 : 0;
+  const double line =
+      std::fmod(x + 1000 + 20 * std::floor(y / 25), 40) < 2 || std::fmod(y + 1000, 25) < 2 ? 0.15 : 0;
   const double grey = 0.3 + 0.12 * wide + 0.05 * fine + line;
   return {grey, grey * 0.9, grey * 0.8};
 }
@@ -103,7 +115,8 @@ Vec3 Simulation::material(const Vec3& n, const Vec3& t) const {
   const double warp = std::exp(-std::pow(t.dot(h1) / 0.3, 2)) * std::max(0.0, n.dot(light));
   const double weft = std::exp(-std::pow(b.dot(h2) / 0.35, 2)) * std::max(0.0, n.dot(other));
   const double diffuse = 0.5 * (1 + n.dot(light));
-  return exposure * (Vec3(0.14, 0.08, 0.12) * (0.4 + diffuse) + Vec3(0.5, 0.3, 0.12) * warp + Vec3(0.1, 0.3, 0.45) * weft);
+  return exposure * (Vec3(0.14, 0.08, 0.12) * (0.4 + diffuse) + Vec3(0.5, 0.3, 0.12) * warp +
+                     Vec3(0.1, 0.3, 0.45) * weft);
 }
 
 Picture8 Simulation::render(int frame) const {
@@ -126,14 +139,17 @@ Picture8 Simulation::render(int frame) const {
     Vec3 n;
     const bool near_ball = sphere && (pixel - seen_centre).norm() < 1.2 * radius;
     const bool near_twin = second_sphere && (pixel - twin_centre).norm() < radius;
-    if ((near_ball && normal_at_pixel(lens, ball, pixel, n)) || (near_twin && normal_at_pixel(lens, twin, pixel, n))) {
+    if ((near_ball && normal_at_pixel(lens, ball, pixel, n)) ||
+        (near_twin && normal_at_pixel(lens, twin, pixel, n))) {
       const Vec3 body = to_body * n;
       if (in_seam(body)) return {0.012, 0.012, 0.012};
       const Vec3 position = ball.centre + n;
       const Vec3 to_eye = -position.normalized();
       const Mat3 eye = eye_frame(to_eye);
-      // Lamps at a finite distance see each point from another side: as if the normal leaned towards the middle.
-      const Vec3 lit = (n - Vec3(0.4, 0.6, 0.7) * (n.dot(Vec3(0.4, 0.6, 0.7)) - 1) / lamp_distance).normalized();
+      // Lamps at a finite distance see each point from another side: as if the normal leaned towards the
+      // middle.
+      const Vec3 lit =
+          (n - Vec3(0.4, 0.6, 0.7) * (n.dot(Vec3(0.4, 0.6, 0.7)) - 1) / lamp_distance).normalized();
       const Vec3 tangent = pole.cross(lit).normalized();
       const double rough = 1 + texture * (grain(body * radius / 2.2, 11) + grain(body * radius / 5.0, 12));
       return material(eye * lit, eye * tangent) * rough;
@@ -182,7 +198,8 @@ Picture8 Simulation::render(int frame) const {
       Vec3 sum(0, 0, 0);
       const Vec2 p(x + 0.5, y + 0.5);
       const double from_centre = (p - move - seen_centre).norm();
-      const bool fine = from_centre < 1.06 * radius || (second_sphere && (p - move - twin_centre).norm() < radius);
+      const bool fine =
+          from_centre < 1.06 * radius || (second_sphere && (p - move - twin_centre).norm() < radius);
       const int n = fine ? (std::abs(from_centre - radius) < 3 ? 4 : samples) : 1;
       if (!fine) {
         image.at<cv::Vec3f>(y, x) = still(x, y);
@@ -192,7 +209,8 @@ Picture8 Simulation::render(int frame) const {
         for (int u = 0; u < n; ++u) sum += light_at({x + (u + 0.5) / n, y + (v + 0.5) / n});
       }
       sum /= n * n;
-      image.at<cv::Vec3f>(y, x) = {static_cast<float>(sum.x()), static_cast<float>(sum.y()), static_cast<float>(sum.z())};
+      image.at<cv::Vec3f>(y, x) = {static_cast<float>(sum.x()), static_cast<float>(sum.y()),
+                                   static_cast<float>(sum.z())};
     }
   });
   const bool shake = std::ranges::find(shaken, frame) != shaken.end();
@@ -208,7 +226,8 @@ Picture8 Simulation::render(int frame) const {
     for (int x = 0; x < width; ++x) {
       for (int c = 0; c < 3; ++c) {
         const double light = static_cast<double>(image.at<cv::Vec3f>(y, x)[c]) * exposed[c];
-        double code = static_cast<double>(encode[static_cast<std::size_t>(std::clamp(light, 0.0, 1.0) * 8192)]);
+        double code =
+            static_cast<double>(encode[static_cast<std::size_t>(std::clamp(light, 0.0, 1.0) * 8192)]);
         if (noise > 0) code += noise * static_cast<double>(bells[random() >> 8 & 0xffff]);
         picture.rgb.push_back(static_cast<std::uint8_t>(std::clamp(code + 0.5, 0.0, 255.0)));
       }
@@ -236,6 +255,31 @@ void write_video(const Simulation& s, const std::filesystem::path& path) {
     cv::cvtColor(cv::Mat(s.height, s.width, CV_8UC3, picture.rgb.data()), bgr, cv::COLOR_RGB2BGR);
     writer.write(bgr);
   }
+}
+
+void draw_chessboard(const std::filesystem::path& path, const Camera& camera, const Mat3& turned,
+                     const Vec3& moved, int columns, int rows) {
+  cv::Mat image(camera.height, camera.width, CV_8U);
+  constexpr int kFine = 3;
+  parallel_for(camera.height, [&](int y) {
+    for (int x = 0; x < camera.width; ++x) {
+      int white = 0;
+      for (int i = 0; i < kFine * kFine; ++i) {
+        const Vec3 ray = camera.ray({x + (i % kFine + 0.5) / kFine, y + (i / kFine + 0.5) / kFine});
+        // Where the ray meets the board's plane, in the board's own coordinates.
+        const Vec3 origin = turned.transpose() * -moved;
+        const Vec3 d = turned.transpose() * ray;
+        const Vec3 p = origin - d * (origin.z() / d.z());
+        const double u = p.x() + (columns + 1) / 2.0;
+        const double v = p.y() + (rows + 1) / 2.0;
+        const bool on = u >= 0 && v >= 0 && u < columns + 1 && v < rows + 1;
+        const bool dark = on && (static_cast<int>(u) + static_cast<int>(v)) % 2 == 0;
+        white += dark ? 0 : 1;
+      }
+      image.at<std::uint8_t>(y, x) = static_cast<std::uint8_t>(20 + 210 * white / (kFine * kFine));
+    }
+  });
+  cv::imwrite(path.string(), image, {cv::IMWRITE_PNG_COMPRESSION, 1});
 }
 
 double table_psnr(const AmcTable& table, const Simulation& truth, const std::vector<std::uint8_t>& seen) {
