@@ -9,9 +9,11 @@
 #include <fmt/format.h>
 
 #include "sateen/capture/angles.h"
+#include "sateen/capture/choose_camera.h"
 #include "sateen/capture/measure.h"
 #include "sateen/capture/mirror_ball.h"
 #include "sateen/capture/weave.h"
+#include "sateen/capture/wobble.h"
 #include "sateen/core/direction.h"
 #include "sateen/core/error.h"
 #include "sateen/io/image.h"
@@ -19,90 +21,15 @@
 namespace sateen {
 namespace {
 
-constexpr double kAssumedFov = 60;  // degrees: common for webcams
 constexpr double kRegistrationNoise = radians(0.25);
 constexpr int kEnvironmentWidth = 512;
+constexpr const char* kNoAngle = "its angle cannot be found";
 constexpr int kSymmetrySlices = 48;  // divisible by 2, 3 and 4
 
 double median(std::vector<double> values) {
   const auto half = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::ranges::nth_element(values, half);
   return *half;
-}
-
-/// The camera from the best source there is.
-Camera choose_camera(const FrameSource& source, const CaptureOptions& options) {
-  const int width = source.width();
-  const int height = source.height();
-  if (options.camera) {
-    const double factor = static_cast<double>(width) / options.camera->width;
-    if (std::abs(options.camera->height * factor - height) > 1.5) {
-      throw Error(fmt::format("the calibration is for pictures of {} x {}, these are {} x {}: another shape",
-                              options.camera->width, options.camera->height, width, height));
-    }
-    Camera camera = options.camera->scaled(factor);
-    camera.width = width;
-    camera.height = height;
-    return camera;
-  }
-  const auto pinhole = [&](double focal, const char* from) {
-    Camera camera = Camera::pinhole(width, height, focal);
-    camera.focal_source = from;
-    return camera;
-  };
-  if (options.fov > 0) return pinhole(focal_of_fov(width, options.fov), "field of view given");
-  const LensNotes notes = source.is_video() ? LensNotes{} : read_lens_notes(source.path(0));
-  const double focal_mm = options.focal_mm > 0 ? options.focal_mm : notes.focal_mm;
-  if (focal_mm > 0 && options.sensor_mm > 0) {
-    return pinhole(
-        focal_of_lens(width, focal_mm, options.sensor_mm),
-        options.focal_mm > 0 ? "focal length and sensor given" : "EXIF focal length, sensor given");
-  }
-  // A 35 mm equivalent is by the diagonal of 36 x 24 mm, as camera makers state it.
-  const double diagonal = std::hypot(width, height);
-  if (options.focal_mm <= 0 && notes.focal_35mm > 0) {
-    return pinhole(notes.focal_35mm * diagonal / std::hypot(36.0, 24.0), "EXIF 35 mm equivalent");
-  }
-  return pinhole(focal_of_fov(width, radians(kAssumedFov)), "assumed");
-}
-
-/// The circle that a sphere not mounted centrically describes in the picture.
-struct Wobble {
-  Vec2 middle{0, 0};
-  Vec2 cosine{0, 0};
-  Vec2 sine{0, 0};
-  double rms = 0;
-
-  Vec2 at(double angle) const { return middle + std::cos(angle) * cosine + std::sin(angle) * sine; }
-};
-
-Wobble fit_wobble(const std::vector<Vec2>& centres, const std::vector<double>& angles) {
-  Wobble wobble;
-  std::vector<double> weights(centres.size(), 1);
-  for (int round = 0; round < 4; ++round) {
-    Mat3 normal = Mat3::Identity() * 1e-9;
-    Eigen::Matrix<double, 3, 2> right = Eigen::Matrix<double, 3, 2>::Zero();
-    for (std::size_t i = 0; i < centres.size(); ++i) {
-      const Vec3 row(1, std::cos(angles[i]), std::sin(angles[i]));
-      normal += weights[i] * row * row.transpose();
-      right += weights[i] * row * centres[i].transpose();
-    }
-    const Eigen::Matrix<double, 3, 2> solution = normal.inverse() * right;
-    wobble.middle = solution.row(0).transpose();
-    wobble.cosine = solution.row(1).transpose();
-    wobble.sine = solution.row(2).transpose();
-    std::vector<double> errors;
-    for (std::size_t i = 0; i < centres.size(); ++i)
-      errors.push_back((centres[i] - wobble.at(angles[i])).norm());
-    const double scale = 3 * std::max(0.02, median(errors));
-    double squares = 0;
-    for (std::size_t i = 0; i < centres.size(); ++i) {
-      weights[i] = errors[i] < scale ? 1 : scale / errors[i];
-      squares += errors[i] * errors[i];
-    }
-    wobble.rms = std::sqrt(squares / static_cast<double>(centres.size()));
-  }
-  return wobble;
 }
 
 class Builder {
@@ -157,7 +84,7 @@ class Builder {
       std::vector<double> near;
       for (std::size_t j = i > 4 ? i - 4 : 0; j < std::min(notes_.size(), i + 5); ++j)
         near.push_back(sharpness[j]);
-      if (sharpness[i] < 0.7 * median(near)) frame.dropped = "blurred";
+      if (sharpness[i] < 0.6 * median(near)) frame.dropped = "blurred";
     }
   }
 
@@ -202,13 +129,15 @@ class Builder {
             "--angles FILE");
       }
     }
+    const double typical = median(turning.strength);
     result_.axis = turning.axis;
     for (std::size_t k = 0; k < indices.size(); ++k) {
       CaptureFrame& frame = result_.frames[indices[k]];
       frame.turned = turning.angles[k];
       frame.confidence = turning.confidence[k];
-      if (known.empty() && turning.confidence[k] < turning.confidence_floor)
-        frame.dropped = "its angle cannot be found";
+      // Against the surface all frames share, blur shows even where noise hides it.
+      if (known.empty() && turning.strength[k] < 0.55 * typical) frame.dropped = "blurred";
+      if (known.empty() && turning.confidence[k] < turning.confidence_floor) frame.dropped = kNoAngle;
     }
     if (known.empty()) recognise_equal_steps();
     drop_duplicates();
@@ -232,6 +161,7 @@ class Builder {
     result_.equal_steps = true;
     for (std::size_t i = 0; i < result_.frames.size(); ++i) {
       result_.frames[i].turned = steps.first + steps.step * static_cast<double>(i);
+      if (result_.frames[i].dropped == kNoAngle) result_.frames[i].dropped.clear();
     }
   }
 
@@ -350,6 +280,44 @@ class Builder {
     }
   }
 
+  /// A stand in front of the sphere does not turn: it is no more active than the background.
+  void hide_what_stands_still(const RectifyMap& map) {
+    const int size = options_.size;
+    const int width = look_.camera.width;
+    std::vector<std::size_t> still;
+    double inside = 0;
+    for (int y = 0; y < size; ++y) {
+      for (int x = 0; x < size; ++x) {
+        const Vec2 disc = disc_of_pixel(x, y, size);
+        const Vec2 p = map.pixel(x, y) / look_.factor;
+        if (disc.norm() > 0.96 || p.x() < 2) continue;
+        ++inside;
+        // The quietest of a plus of pixels would be chance; the loudest has to be quiet.
+        float loudest = 0;
+        for (const auto& [u, v] : {std::pair{0, 0}, {-1, 0}, {1, 0}, {0, -1}, {0, 1}}) {
+          const auto i =
+              (static_cast<std::ptrdiff_t>(p.y()) + v) * width + static_cast<std::ptrdiff_t>(p.x()) + u;
+          loudest = std::max(loudest, look_.scouting.activity[static_cast<std::size_t>(i)]);
+        }
+        if (static_cast<double>(loudest) < 2 * look_.scouting.noise)
+          still.push_back(static_cast<std::size_t>(y * size + x));
+      }
+    }
+    const double share = static_cast<double>(still.size()) / std::max(1.0, inside);
+    if (share < 0.003) return;
+    if (share > 0.25) {
+      result_.warnings.push_back(fmt::format(
+          "{:.0f} % of the sphere hardly changes as it turns: it is plain there, very dark, or covered",
+          100 * share));
+      return;
+    }
+    for (const std::size_t i : still) stack_.points[i].visible = false;
+    result_.warnings.push_back(
+        fmt::format("{:.1f} % of the sphere stands still, as behind a stand, and was filled from its "
+                    "neighbours: keep the front clear",
+                    100 * share));
+  }
+
   void rectify_frames() {
     const double rim = 1.5 * look_.factor;
     const RectifyMap map(result_.camera, result_.sphere, options_.size, options_.frame, rim);
@@ -359,6 +327,7 @@ class Builder {
     for (int y = 0; y < options_.size; ++y) {
       for (int x = 0; x < options_.size; ++x) stack_.points.push_back(map.point(x, y));
     }
+    hide_what_stands_still(map);
     std::vector<int> indices;
     for (const std::size_t i : used()) indices.push_back(static_cast<int>(i));
     std::ranges::sort(indices);

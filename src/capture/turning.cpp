@@ -225,7 +225,7 @@ void for_shown(const DiscNormals& disc, const cv::Mat& image, const Mat3& rotati
 /// One round of Lucas-Kanade: the surface from all frames, then each frame's rotation vector against it, then
 /// what of it is the axis.
 double refine(const std::vector<cv::Mat>& images, Vec3& axis, std::vector<double>& angles, bool refine_angles,
-              std::vector<double>& confidence) {
+              std::vector<double>& confidence, std::vector<double>& strength) {
   const int size = images[0].cols;
   const DiscNormals disc(size);
   const std::size_t n = images.size();
@@ -289,6 +289,7 @@ double refine(const std::vector<cv::Mat>& images, Vec3& axis, std::vector<double
     normal_matrix += Mat3::Identity() * 1e-9;
     const Vec3 right(sums[6], sums[7], sums[8]);
     rotation[f] = normal_matrix.ldlt().solve(right);
+    strength[f] = sums[9] / std::max(1e-12, sums[11]);
     confidence[f] = sums[9] / std::sqrt(std::max(1e-12, sums[10] * sums[11]));
   });
 
@@ -325,8 +326,10 @@ double refine(const std::vector<cv::Mat>& images, Vec3& axis, std::vector<double
 
 void refine_all(const std::vector<cv::Mat>& images, const Mat3& axes, bool refine_angles, Turning& turning) {
   Vec3 axis = axes * turning.axis;
+  turning.strength.assign(images.size(), 0);
   for (int round = 0; round < 3; ++round) {
-    turning.step_error = refine(images, axis, turning.angles, refine_angles, turning.confidence);
+    turning.step_error =
+        refine(images, axis, turning.angles, refine_angles, turning.confidence, turning.strength);
   }
   turning.axis = axes.transpose() * axis;
   const double first = turning.angles[0];

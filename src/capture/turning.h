@@ -31,8 +31,10 @@ struct Turning {
   Vec3 axis{0, 0, 1};  ///< view space, unit, towards the camera; angles are counter-clockwise about it
   std::vector<double> angles;      ///< per patch, radians, the first is 0; not unwrapped, in [0, 2 pi)
   std::vector<double> confidence;  ///< per patch: correlation with the common surface, 1 is perfect
-  double confidence_floor = 0;     ///< correlation that chance alone reaches
-  double step_error = 0;           ///< radians, rms of the last refinement
+  std::vector<double>
+      strength;  ///< per patch: how much of the common surface's detail it shows; blurred ones less
+  double confidence_floor = 0;  ///< correlation that chance alone reaches
+  double step_error = 0;        ///< radians, rms of the last refinement
 };
 
 /// Finds every frame's angle by registering it with the surface all frames have in common, first about the

@@ -137,6 +137,9 @@ Picture8 Simulation::render(int frame) const {
   const auto light_at = [&](const Vec2& at) -> Vec3 {
     const Vec2 pixel = at - move;
     Vec3 n;
+    if (covered && std::abs(pixel.x() - centre.x()) < 7 && pixel.y() > centre.y() + 0.5 * radius) {
+      return {0.4, 0.42, 0.4};
+    }
     const bool near_ball = sphere && (pixel - seen_centre).norm() < 1.2 * radius;
     const bool near_twin = second_sphere && (pixel - twin_centre).norm() < radius;
     if ((near_ball && normal_at_pixel(lens, ball, pixel, n)) ||
@@ -260,7 +263,7 @@ void write_video(const Simulation& s, const std::filesystem::path& path) {
 void draw_chessboard(const std::filesystem::path& path, const Camera& camera, const Mat3& turned,
                      const Vec3& moved, int columns, int rows) {
   cv::Mat image(camera.height, camera.width, CV_8U);
-  constexpr int kFine = 3;
+  constexpr int kFine = 2;
   parallel_for(camera.height, [&](int y) {
     for (int x = 0; x < camera.width; ++x) {
       int white = 0;

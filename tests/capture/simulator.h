@@ -38,6 +38,7 @@ struct Simulation {
   double lamp_distance = 1e6;  // in sphere radii
   double exposure = 1;         // of all: above 1.5 highlights clip
   bool stand = true;
+  bool covered = false;       // by a post in front of the sphere's lower part
   std::vector<int> shaken;    // frames that are blurred
   std::vector<int> repeated;  // frames that repeat the one before
   Vec2 camera_move{0, 0};     // pixels by which the picture jumps half-way
