@@ -21,7 +21,7 @@ void run(const Arguments& arguments) {
   CaptureResult result = build_capture(arguments.inputs, options);
   result.table.provenance["program"] = "sateen " SATEEN_VERSION;
   write_amc(arguments.output, result.table);
-  report_capture(arguments.capture, result);
+  report_capture(arguments.capture, arguments.output, result);
   if (arguments.json) print(report_json(result));
 }
 
@@ -29,11 +29,16 @@ void run(const Arguments& arguments) {
 
 void add_capture_build(CLI::App& parent) {
   auto arguments = std::make_shared<Arguments>();
-  CLI::App* command = add_command(
-      parent, "build", "Make an Anisotropic MatCap from photographs or a video of a turning, cloth-covered sphere",
-      "sateen capture build photos -o cloth.ktx2 --report report --focal-mm 70 --sensor-mm 36 --first-angle 90");
-  command->add_option("inputs", arguments->inputs, "Photographs, folders of photographs, or one video")->required();
-  command->add_option("-o,--output", arguments->output, "The AMC: a .ktx2 file, or a folder of slices (no extension)")
+  CLI::App* command =
+      add_command(parent, "build",
+                  "Make an Anisotropic MatCap from photographs or a video of a turning, cloth-covered sphere",
+                  "sateen capture build photos -o cloth.ktx2 --report report --focal-mm 70 --sensor-mm 36 "
+                  "--first-angle 90");
+  command->add_option("inputs", arguments->inputs, "Photographs, folders of photographs, or one video")
+      ->required();
+  command
+      ->add_option("-o,--output", arguments->output,
+                   "The AMC: a .ktx2 file, or a folder of slices (no extension)")
       ->required();
   add_capture_options(*command, arguments->capture);
   command->add_flag("--json", arguments->json, "Print the report as JSON");

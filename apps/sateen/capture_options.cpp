@@ -9,6 +9,7 @@
 #include "sateen/capture/report.h"
 #include "sateen/core/error.h"
 #include "sateen/io/file.h"
+#include "sateen/io/image.h"
 
 namespace sateen::cli {
 namespace {
@@ -51,7 +52,8 @@ std::optional<Response> response_of(const std::string& name) {
   Response response;
   for (const double value : read_numbers(name)) response.curve.push_back(static_cast<float>(value));
   if (response.curve.size() < 2 || !(response.curve.back() > response.curve.front())) {
-    throw Error(fmt::format("{}: a response curve is at least two rising numbers, the light for evenly spaced codes", name));
+    throw Error(fmt::format(
+        "{}: a response curve is at least two rising numbers, the light for evenly spaced codes", name));
   }
   return response;
 }
@@ -63,18 +65,25 @@ void add_capture_options(CLI::App& command, CaptureArguments& a) {
   command.add_option("--report", a.report, "Folder for report.json and report.html");
   command.add_option("--size", o.size, "Texels along each normal axis (S)")->check(CLI::Range(16, 1024));
   command.add_option("--slices", o.slices, "Tangent angles in one period (S_k)")->check(CLI::Range(4, 2048));
-  command.add_option("--symmetry", a.symmetry, "R: equivalent turns to average; auto takes the largest found")
+  command
+      .add_option("--symmetry", a.symmetry, "R: equivalent turns to average; auto takes the largest found")
       ->check(CLI::IsMember({"auto", "1", "2", "3", "4"}));
   command.add_option("--threshold", o.symmetry_threshold, "PSNR in dB from which a turn counts as alike");
   command.add_option("--encoding", a.encoding, "Texels in the file")->check(CLI::IsMember({"srgb8", "half"}));
 
   const auto lens = "Lens";
-  command.add_option("--focal-mm", o.focal_mm, "Focal length in mm (otherwise EXIF); needs the sensor's width")
+  command
+      .add_option("--focal-mm", o.focal_mm, "Focal length in mm (otherwise EXIF); needs the sensor's width")
       ->check(CLI::PositiveNumber)
       ->group(lens);
-  command.add_option("--sensor-mm", o.sensor_mm, "Width of the sensor in mm")->check(CLI::PositiveNumber)->group(lens);
-  command.add_option("--fov", a.fov, "Horizontal field of view in degrees")->check(CLI::Range(1.0, 170.0))->group(lens);
-  command.add_option("--calibration", a.calibration, "Camera from sateen capture calibrate (JSON)")->group(lens);
+  command.add_option("--sensor-mm", o.sensor_mm, "Width of the sensor in mm")
+      ->check(CLI::PositiveNumber)
+      ->group(lens);
+  command.add_option("--fov", a.fov, "Horizontal field of view in degrees")
+      ->check(CLI::Range(1.0, 170.0))
+      ->group(lens);
+  command.add_option("--calibration", a.calibration, "Camera from sateen capture calibrate (JSON)")
+      ->group(lens);
   command
       .add_option("--perspective", a.perspective,
                   "Normals relative to the eye from each surface point, or to the camera's axis")
@@ -84,7 +93,8 @@ void add_capture_options(CLI::App& command, CaptureArguments& a) {
   const auto turning = "Turning";
   command
       .add_option("--angles", a.angles,
-                  "How far each frame is turned: pictures (found out), equal (one full turn in equal steps), or a text file "
+                  "How far each frame is turned: pictures (found out), equal (one full turn in equal steps), "
+                  "or a text file "
                   "of degrees, counter-clockwise")
       ->group(turning);
   command.add_option("--direction", a.direction, "Of equal steps, as the picture shows it")
@@ -96,7 +106,8 @@ void add_capture_options(CLI::App& command, CaptureArguments& a) {
 
   const auto tangent = "Tangent (all angles in degrees, counter-clockwise from the picture's right)";
   a.first_angle_option =
-      command.add_option("--first-angle", a.first_angle, "The tangent's direction in the first frame")->group(tangent);
+      command.add_option("--first-angle", a.first_angle, "The tangent's direction in the first frame")
+          ->group(tangent);
   a.thread_option = command
                         .add_option("--thread-direction", a.thread_direction,
                                     "The tangent's direction read off one frame, in the middle of the sphere")
@@ -104,12 +115,12 @@ void add_capture_options(CLI::App& command, CaptureArguments& a) {
   command.add_option("--thread-frame", a.thread_frame, "The frame it was read off, counted from 0")
       ->needs(a.thread_option)
       ->group(tangent);
-  a.seam_option =
-      command
-          .add_option("--tangent-from-seam", a.from_seam,
-                      "The tangent's direction relative to where the seam lies, seen from the middle; -90 for a seam at "
-                      "the pole of the parallels the threads follow")
-          ->group(tangent);
+  a.seam_option = command
+                      .add_option("--tangent-from-seam", a.from_seam,
+                                  "The tangent's direction relative to where the seam lies, seen from the "
+                                  "middle; -90 for a seam at "
+                                  "the pole of the parallels the threads follow")
+                      ->group(tangent);
   a.weave_option = command
                        .add_option("--tangent-from-weave", a.from_weave,
                                    "The tangent's direction relative to the threads visible in the middle")
@@ -124,12 +135,24 @@ void add_capture_options(CLI::App& command, CaptureArguments& a) {
   const auto light = "Light and seams";
   command
       .add_option("--response", a.response,
-                  "From code values to light: auto (sRGB, or linear for EXR and HDR), srgb, linear, gamma:G, or a text file "
+                  "From code values to light: auto (sRGB, or linear for EXR and HDR), srgb, linear, gamma:G, "
+                  "or a text file "
                   "of numbers")
       ->group(light);
-  command.add_option("--mask", o.mask, "Picture of one frame's size, white where the sphere shows no clean material")
+  command
+      .add_option("--mask", o.mask,
+                  "Picture of one frame's size, white where the sphere shows no clean material")
       ->group(light);
-  command.add_option("--mask-frame", o.mask_frame, "The frame the mask was painted on, counted from 0")->group(light);
+  command.add_option("--mask-frame", o.mask_frame, "The frame the mask was painted on, counted from 0")
+      ->group(light);
+  command
+      .add_option("--mirror-ball", o.mirror_ball,
+                  "Picture of a chrome ball on the same stand: writes the light around it beside the AMC, "
+                  "NAME.light.exr")
+      ->group(light);
+  command.add_option("--mirror-reflectance", o.mirror_reflectance, "Of the chrome ball")
+      ->check(CLI::Range(0.01, 1.0))
+      ->group(light);
   command.add_flag("--keep-seams", a.keep_seams, "Do not look for seams")->group(light);
 }
 
@@ -166,7 +189,12 @@ CaptureOptions capture_options(const CaptureArguments& a) {
   return o;
 }
 
-void report_capture(const CaptureArguments& arguments, const CaptureResult& result) {
+void report_capture(const CaptureArguments& arguments, const std::filesystem::path& output,
+                    const CaptureResult& result) {
+  if (!result.environment.empty()) {
+    std::filesystem::path light = output;
+    write_image(light.replace_extension(".light.exr"), result.environment);
+  }
   for (const std::string& warning : result.warnings) warn(warning);
   if (!arguments.report.empty()) write_report(arguments.report, result);
 }

@@ -40,7 +40,8 @@ void add_capture_options(CLI::App& command, CaptureArguments& arguments);
 /// The library's options from the parsed ones. Throws Error for files that are wrong.
 CaptureOptions capture_options(const CaptureArguments& arguments);
 
-/// Warnings on stderr, the report if a folder for it was named.
-void report_capture(const CaptureArguments& arguments, const CaptureResult& result);
+/// Warnings on stderr, the light of a mirror ball beside `output`, the report if a folder for it was named.
+void report_capture(const CaptureArguments& arguments, const std::filesystem::path& output,
+                    const CaptureResult& result);
 
 }  // namespace sateen::cli

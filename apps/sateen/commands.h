@@ -24,5 +24,7 @@ void add_matcap_info(CLI::App& parent);
 void add_matcap_separate(CLI::App& parent);
 void add_render(CLI::App& parent);
 void add_shade(CLI::App& parent);
+void add_capture_calibrate(CLI::App& parent);
+void add_capture_live(CLI::App& parent);
 
 }  // namespace sateen::cli

@@ -94,6 +94,8 @@ void add_commands(CLI::App& app) {
   add_maps_aniso_filter(aniso);
   CLI::App& capture = add_noun(app, "capture", "From a camera and a turning sphere to an Anisotropic MatCap");
   add_capture_build(capture);
+  add_capture_calibrate(capture);
+  add_capture_live(capture);
 }
 
 int run(int argc, char** argv) {

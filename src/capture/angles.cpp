@@ -16,7 +16,8 @@ std::vector<double> unwrapped(std::span<const double> angles) {
   return result;
 }
 
-EqualSteps equal_steps(std::span<const int> indices, std::span<const double> angles, int sequence, double noise) {
+EqualSteps equal_steps(std::span<const int> indices, std::span<const double> angles, int sequence,
+                       double noise) {
   EqualSteps result;
   const std::size_t n = angles.size();
   if (n < 12) return result;

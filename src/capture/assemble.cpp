@@ -21,8 +21,8 @@ struct Sample {
 
 /// Weighted sums of a quadratic least-squares fit in u = (angle - target) / half width.
 struct Moments {
-  std::array<double, 5> s{};                   // of u^0 .. u^4
-  std::array<std::array<double, 3>, 3> t{};    // of u^0 .. u^2 times r, g, b
+  std::array<double, 5> s{};                 // of u^0 .. u^4
+  std::array<std::array<double, 3>, 3> t{};  // of u^0 .. u^2 times r, g, b
   double left = 0;
   double right = 0;
   int count = 0;
@@ -61,12 +61,14 @@ struct Moments {
       a = s[2] / linear;
       b = -s[1] / linear;
     }
-    for (std::size_t i = 0; i < 3; ++i) result[i] = static_cast<float>(a * t[0][i] + b * t[1][i] + c * t[2][i]);
+    for (std::size_t i = 0; i < 3; ++i)
+      result[i] = static_cast<float>(a * t[0][i] + b * t[1][i] + c * t[2][i]);
     return result;
   }
 };
 
-/// Typical distance between different angles: coinciding samples (a second turn, an equivalent slice) count once.
+/// Typical distance between different angles: coinciding samples (a second turn, an equivalent slice) count
+/// once.
 double spacing_of(const std::vector<Sample>& samples, double period) {
   const double close = 0.25 * period / static_cast<double>(samples.size());
   int different = 1;
@@ -79,8 +81,8 @@ double spacing_of(const std::vector<Sample>& samples, double period) {
 /// How a texel's light at one angle is known.
 enum class Known { no, bridged, measured };
 
-/// The light at `target` from samples sorted by angle and repeated over three periods. Inside a gap wider than the fit
-/// (a masked seam passing) the two shores are blended; beyond `widest` nothing is known.
+/// The light at `target` from samples sorted by angle and repeated over three periods. Inside a gap wider
+/// than the fit (a masked seam passing) the two shores are blended; beyond `widest` nothing is known.
 Known fit_at(const std::vector<Sample>& samples, double target, double half_width, double widest,
              std::array<float, 3>& rgb) {
   const auto above = std::ranges::lower_bound(samples, target, {}, &Sample::angle);
@@ -95,7 +97,8 @@ Known fit_at(const std::vector<Sample>& samples, double target, double half_widt
   }
   Moments moments;
   auto it = std::ranges::lower_bound(samples, target - half_width, {}, &Sample::angle);
-  for (; it != samples.end() && it->angle < target + half_width; ++it) moments.add(*it, (it->angle - target) / half_width);
+  for (; it != samples.end() && it->angle < target + half_width; ++it)
+    moments.add(*it, (it->angle - target) / half_width);
   if (moments.count == 0) return Known::no;
   rgb = moments.value();
   return Known::measured;
@@ -184,7 +187,8 @@ AssembledSlices assemble(const RectifiedStack& stack, const SurfaceMask& mask, d
       }
       for (int slice = 0; slice < count; ++slice) {
         std::array<float, 3> rgb{};
-        const Known known = fit_at(repeated, period * slice / count, 2 * spacing, std::max(4 * spacing, kWidestBridge), rgb);
+        const Known known =
+            fit_at(repeated, period * slice / count, 2 * spacing, std::max(4 * spacing, kWidestBridge), rgb);
         if (known == Known::no) continue;
         result.slices[static_cast<std::size_t>(slice)].set_rgb(
             x, y, Vec3f(std::max(0.0f, rgb[0]), std::max(0.0f, rgb[1]), std::max(0.0f, rgb[2])));
@@ -193,7 +197,8 @@ AssembledSlices assemble(const RectifiedStack& stack, const SurfaceMask& mask, d
     }
   });
   parallel_for(count, [&](int slice) {
-    const auto first = result.seen.begin() + static_cast<std::ptrdiff_t>(static_cast<std::size_t>(slice) * texels);
+    const auto first =
+        result.seen.begin() + static_cast<std::ptrdiff_t>(static_cast<std::size_t>(slice) * texels);
     fill_from_neighbours(result.slices[static_cast<std::size_t>(slice)],
                          {first, first + static_cast<std::ptrdiff_t>(texels)});
   });

@@ -42,7 +42,8 @@ std::vector<double> find_brackets(std::span<const std::filesystem::path> files) 
 
 Frame merge_brackets(std::span<const Frame> group, std::span<const double> exposure_times) {
   const double longest = *std::ranges::max_element(exposure_times);
-  const auto shortest = static_cast<std::size_t>(std::ranges::min_element(exposure_times) - exposure_times.begin());
+  const auto shortest =
+      static_cast<std::size_t>(std::ranges::min_element(exposure_times) - exposure_times.begin());
   Image light(group[0].width(), group[0].height(), 3);
   float clip = 0;
   for (int y = 0; y < light.height; ++y) {
@@ -63,7 +64,8 @@ Frame merge_brackets(std::span<const Frame> group, std::span<const double> expos
     }
   }
   const auto range = static_cast<float>(longest / exposure_times[shortest]);
-  return {std::move(light), clip > 0 ? std::min(clip, 0.98f * range) : std::numeric_limits<float>::infinity()};
+  return {std::move(light),
+          clip > 0 ? std::min(clip, 0.98f * range) : std::numeric_limits<float>::infinity()};
 }
 
 }  // namespace sateen

@@ -41,7 +41,11 @@ Vec3 Camera::ray(const Vec2& pixel) const {
   Vec2 p = seen;
   if (distorted()) {
     // Fixed point: a lens bends little, so the error shrinks by its distortion at each round.
-    for (int i = 0; i < 30; ++i) p += seen - distort(distortion, p);
+    for (int i = 0; i < 30; ++i) {
+      const Vec2 error = seen - distort(distortion, p);
+      p += error;
+      if (error.squaredNorm() < 1e-24) break;
+    }
   }
   return Vec3(p.x(), -p.y(), -1).normalized();
 }
@@ -85,7 +89,8 @@ Camera read_camera(const std::filesystem::path& path) {
     }
     return camera;
   } catch (const nlohmann::json::exception&) {
-    throw Error(fmt::format("{}: is no camera calibration; make one with sateen capture calibrate", path.string()));
+    throw Error(
+        fmt::format("{}: is no camera calibration; make one with sateen capture calibrate", path.string()));
   }
 }
 

@@ -9,8 +9,9 @@
 
 namespace sateen {
 
-/// A pinhole camera with the Brown-Conrady lens distortion. Pixel coordinates run right and down from the picture's
-/// top left corner, pixel centres at +0.5; rays live in view space (x right, y up, the camera looks along -z).
+/// A pinhole camera with the Brown-Conrady lens distortion. Pixel coordinates run right and down from the
+/// picture's top left corner, pixel centres at +0.5; rays live in view space (x right, y up, the camera looks
+/// along -z).
 struct Camera {
   int width = 0;
   int height = 0;
@@ -34,22 +35,22 @@ struct Camera {
   Camera scaled(double factor) const;
 };
 
-/// Focal length in pixels of a picture `width` pixels wide taken with a lens of `focal_mm` on a sensor `sensor_mm` wide,
-/// or with a horizontal field of view of `fov` radians.
+/// Focal length in pixels of a picture `width` pixels wide taken with a lens of `focal_mm` on a sensor
+/// `sensor_mm` wide, or with a horizontal field of view of `fov` radians.
 double focal_of_lens(int width, double focal_mm, double sensor_mm);
 double focal_of_fov(int width, double fov);
 
-/// A camera as JSON (written by `sateen capture calibrate`). Throws Error naming the file when it is missing, no
-/// such JSON, or has impossible values.
+/// A camera as JSON (written by `sateen capture calibrate`). Throws Error naming the file when it is missing,
+/// no such JSON, or has impossible values.
 Camera read_camera(const std::filesystem::path& path);
 void write_camera(const std::filesystem::path& path, const Camera& camera, double rms_pixels);
 
-/// What the camera's own notes say of the lens, from EXIF; zeros where it does not say. Never throws for unreadable
-/// EXIF: that is as good as none.
+/// What the camera's own notes say of the lens, from EXIF; zeros where it does not say. Never throws for
+/// unreadable EXIF: that is as good as none.
 struct LensNotes {
   double focal_mm = 0;
-  double focal_35mm = 0;      ///< equivalent on a 36 mm wide sensor
-  double exposure_time = 0;   ///< seconds
+  double focal_35mm = 0;     ///< equivalent on a 36 mm wide sensor
+  double exposure_time = 0;  ///< seconds
 };
 LensNotes read_lens_notes(const std::filesystem::path& path);
 

@@ -9,8 +9,11 @@
 #include <fmt/format.h>
 
 #include "sateen/capture/angles.h"
+#include "sateen/capture/choose_camera.h"
 #include "sateen/capture/measure.h"
+#include "sateen/capture/mirror_ball.h"
 #include "sateen/capture/weave.h"
+#include "sateen/capture/wobble.h"
 #include "sateen/core/direction.h"
 #include "sateen/core/error.h"
 #include "sateen/io/image.h"
@@ -18,92 +21,15 @@
 namespace sateen {
 namespace {
 
-constexpr double kAssumedFov = 60;               // degrees: common for webcams
 constexpr double kRegistrationNoise = radians(0.25);
-constexpr int kSymmetrySlices = 96;              // divisible by 2, 3 and 4
+constexpr int kEnvironmentWidth = 512;
+constexpr const char* kNoAngle = "its angle cannot be found";
+constexpr int kSymmetrySlices = 48;  // divisible by 2, 3 and 4
 
 double median(std::vector<double> values) {
   const auto half = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::ranges::nth_element(values, half);
   return *half;
-}
-
-/// The camera from the best source there is; a guess comes with a warning that says what it may cost.
-Camera choose_camera(const FrameSource& source, const CaptureOptions& options, std::vector<std::string>& warnings) {
-  const int width = source.width();
-  const int height = source.height();
-  if (options.camera) {
-    const double factor = static_cast<double>(width) / options.camera->width;
-    if (std::abs(options.camera->height * factor - height) > 1.5) {
-      throw Error(fmt::format("the calibration is for pictures of {} x {}, these are {} x {}: another shape",
-                              options.camera->width, options.camera->height, width, height));
-    }
-    Camera camera = options.camera->scaled(factor);
-    camera.width = width;
-    camera.height = height;
-    return camera;
-  }
-  const auto pinhole = [&](double focal, const char* from) {
-    Camera camera = Camera::pinhole(width, height, focal);
-    camera.focal_source = from;
-    return camera;
-  };
-  if (options.fov > 0) return pinhole(focal_of_fov(width, options.fov), "field of view given");
-  const LensNotes notes = source.is_video() ? LensNotes{} : read_lens_notes(source.path(0));
-  const double focal_mm = options.focal_mm > 0 ? options.focal_mm : notes.focal_mm;
-  if (focal_mm > 0 && options.sensor_mm > 0) {
-    return pinhole(focal_of_lens(width, focal_mm, options.sensor_mm),
-                   options.focal_mm > 0 ? "focal length and sensor given" : "EXIF focal length, sensor given");
-  }
-  // A 35 mm equivalent is by the diagonal of 36 x 24 mm, as camera makers state it.
-  const double diagonal = std::hypot(width, height);
-  if (options.focal_mm <= 0 && notes.focal_35mm > 0) {
-    return pinhole(notes.focal_35mm * diagonal / std::hypot(36.0, 24.0), "EXIF 35 mm equivalent");
-  }
-  warnings.push_back(fmt::format(
-      "the lens is unknown, so a horizontal field of view of {:.0f} degrees was assumed. With a lens twice as long "
-      "normals half-way to the rim would be off by about as much as the assumed perspective bends them. Give "
-      "--focal-mm with --sensor-mm, --fov, or a calibration (sateen capture calibrate)",
-      kAssumedFov));
-  return pinhole(focal_of_fov(width, radians(kAssumedFov)), "assumed");
-}
-
-/// The circle that a sphere not mounted centrically describes in the picture.
-struct Wobble {
-  Vec2 middle{0, 0};
-  Vec2 cosine{0, 0};
-  Vec2 sine{0, 0};
-  double rms = 0;
-
-  Vec2 at(double angle) const { return middle + std::cos(angle) * cosine + std::sin(angle) * sine; }
-};
-
-Wobble fit_wobble(const std::vector<Vec2>& centres, const std::vector<double>& angles) {
-  Wobble wobble;
-  std::vector<double> weights(centres.size(), 1);
-  for (int round = 0; round < 4; ++round) {
-    Mat3 normal = Mat3::Identity() * 1e-9;
-    Eigen::Matrix<double, 3, 2> right = Eigen::Matrix<double, 3, 2>::Zero();
-    for (std::size_t i = 0; i < centres.size(); ++i) {
-      const Vec3 row(1, std::cos(angles[i]), std::sin(angles[i]));
-      normal += weights[i] * row * row.transpose();
-      right += weights[i] * row * centres[i].transpose();
-    }
-    const Eigen::Matrix<double, 3, 2> solution = normal.inverse() * right;
-    wobble.middle = solution.row(0).transpose();
-    wobble.cosine = solution.row(1).transpose();
-    wobble.sine = solution.row(2).transpose();
-    std::vector<double> errors;
-    for (std::size_t i = 0; i < centres.size(); ++i) errors.push_back((centres[i] - wobble.at(angles[i])).norm());
-    const double scale = 3 * std::max(0.02, median(errors));
-    double squares = 0;
-    for (std::size_t i = 0; i < centres.size(); ++i) {
-      weights[i] = errors[i] < scale ? 1 : scale / errors[i];
-      squares += errors[i] * errors[i];
-    }
-    wobble.rms = std::sqrt(squares / static_cast<double>(centres.size()));
-  }
-  return wobble;
 }
 
 class Builder {
@@ -113,7 +39,7 @@ class Builder {
 
   CaptureResult run() {
     check_count();
-    result_.camera = choose_camera(source_, options_, result_.warnings);
+    result_.camera = choose_camera(source_, options_);
     look_ = first_look(source_, result_.camera, stage(0, 0.1));
     axes_ = eye_frame(-sphere_at(look_.camera, look_.centre, look_.outline.radius).centre.normalized());
     notes_ = measure_frames(source_, look_, axes_, stage(0.1, 0.45));
@@ -125,6 +51,7 @@ class Builder {
     rectify_frames();
     fix_zero();
     make_table();
+    if (!options_.mirror_ball.empty()) read_mirror_ball();
     warn_of_framing();
     for (const std::string& warning : source_.warnings()) result_.warnings.push_back(warning);
     return std::move(result_);
@@ -138,8 +65,8 @@ class Builder {
 
   void check_count() const {
     if (source_.count() >= kFewestCaptureFrames) return;
-    throw Error(fmt::format("only {} frames given; a turn needs at least {}, better 64 or more", source_.count(),
-                            kFewestCaptureFrames));
+    throw Error(fmt::format("only {} frames given; a turn needs at least {}, better 64 or more",
+                            source_.count(), kFewestCaptureFrames));
   }
 
   void drop_unread() {
@@ -155,7 +82,8 @@ class Builder {
       frame.sharpness = sharpness[i] / typical;
       // Shading changes the detail slowly along the turn: blur stands out against the frames around.
       std::vector<double> near;
-      for (std::size_t j = i > 4 ? i - 4 : 0; j < std::min(notes_.size(), i + 5); ++j) near.push_back(sharpness[j]);
+      for (std::size_t j = i > 4 ? i - 4 : 0; j < std::min(notes_.size(), i + 5); ++j)
+        near.push_back(sharpness[j]);
       if (sharpness[i] < 0.6 * median(near)) frame.dropped = "blurred";
     }
   }
@@ -171,7 +99,8 @@ class Builder {
   void find_angles() {
     const std::vector<std::size_t> indices = used();
     if (indices.size() < static_cast<std::size_t>(kFewestCaptureFrames)) {
-      throw Error(fmt::format("only {} of {} frames are sharp enough to be used", indices.size(), notes_.size()));
+      throw Error(
+          fmt::format("only {} of {} frames are sharp enough to be used", indices.size(), notes_.size()));
     }
     std::vector<SurfacePatch> patches;
     std::vector<double> known;
@@ -183,7 +112,8 @@ class Builder {
       }
       if (options_.angle_source == AngleSource::given) {
         if (options_.angles.size() != notes_.size()) {
-          throw Error(fmt::format("{} angles are given for {} frames", options_.angles.size(), notes_.size()));
+          throw Error(
+              fmt::format("{} angles are given for {} frames", options_.angles.size(), notes_.size()));
         }
         known.push_back(options_.angles[i]);
       }
@@ -193,16 +123,21 @@ class Builder {
       const double trust = median(turning.confidence);
       if (trust < 1.3 * turning.confidence_floor) {
         throw Error(
-            "the turning cannot be followed: the surface shows no detail (weave, grain, a seam) sharp enough. Stick a few "
-            "small marks on it outside the part that counts, or say how it turned: --angles equal or --angles FILE");
+            "the turning cannot be followed: the surface shows no detail (weave, grain, a seam) sharp "
+            "enough. Stick a few "
+            "small marks on it outside the part that counts, or say how it turned: --angles equal or "
+            "--angles FILE");
       }
     }
+    const double typical = median(turning.strength);
     result_.axis = turning.axis;
     for (std::size_t k = 0; k < indices.size(); ++k) {
       CaptureFrame& frame = result_.frames[indices[k]];
       frame.turned = turning.angles[k];
       frame.confidence = turning.confidence[k];
-      if (known.empty() && turning.confidence[k] < turning.confidence_floor) frame.dropped = "its angle cannot be found";
+      // Against the surface all frames share, blur shows even where noise hides it.
+      if (known.empty() && turning.strength[k] < 0.55 * typical) frame.dropped = "blurred";
+      if (known.empty() && turning.confidence[k] < turning.confidence_floor) frame.dropped = kNoAngle;
     }
     if (known.empty()) recognise_equal_steps();
     drop_duplicates();
@@ -226,6 +161,7 @@ class Builder {
     result_.equal_steps = true;
     for (std::size_t i = 0; i < result_.frames.size(); ++i) {
       result_.frames[i].turned = steps.first + steps.step * static_cast<double>(i);
+      if (result_.frames[i].dropped == kNoAngle) result_.frames[i].dropped.clear();
     }
   }
 
@@ -234,8 +170,8 @@ class Builder {
     if (indices.size() < 2) return;
     std::vector<double> steps;
     for (std::size_t k = 1; k < indices.size(); ++k) {
-      steps.push_back(std::abs(
-          std::remainder(result_.frames[indices[k]].turned - result_.frames[indices[k - 1]].turned, 2 * kPi)));
+      steps.push_back(std::abs(std::remainder(
+          result_.frames[indices[k]].turned - result_.frames[indices[k - 1]].turned, 2 * kPi)));
     }
     const double typical = median(steps);
     std::size_t kept = indices[0];
@@ -254,22 +190,26 @@ class Builder {
     std::vector<double> angles;
     for (const std::size_t i : used()) angles.push_back(result_.frames[i].turned);
     if (angles.size() < static_cast<std::size_t>(kFewestCaptureFrames)) {
-      throw Error(fmt::format("only {} of {} frames can be used; the others are blurred, repeated or not to be registered",
-                              angles.size(), notes_.size()));
+      throw Error(fmt::format(
+          "only {} of {} frames can be used; the others are blurred, repeated or not to be registered",
+          angles.size(), notes_.size()));
     }
     const double period = 2 * kPi / options_.symmetry.value_or(1);
     const Coverage found = coverage(angles, period);
     const double even = period / static_cast<double>(angles.size());
     if (found.widest > std::max(radians(25), 3.5 * even)) {
-      throw Error(fmt::format(
-          "the turn is not complete: the frames cover {:.0f} of {:.0f} degrees and leave a gap of {:.0f}. Turn the sphere "
-          "all the way round",
-          degrees(period - found.widest + found.median), degrees(period), degrees(found.widest)));
+      throw Error(
+          fmt::format("the turn is not complete: the frames cover {:.0f} of {:.0f} degrees and leave a gap "
+                      "of {:.0f}. Turn the sphere "
+                      "all the way round; if it did, its surface shows too little detail to follow: say how "
+                      "it turned with --angles",
+                      degrees(period - found.widest + found.median), degrees(period), degrees(found.widest)));
     }
     if (found.widest > std::max(radians(10), 2.5 * even)) {
-      result_.warnings.push_back(fmt::format(
-          "between two frames the sphere turned by {:.0f} degrees: the material is interpolated there. Turn it more evenly",
-          degrees(found.widest)));
+      result_.warnings.push_back(
+          fmt::format("between two frames the sphere turned by {:.0f} degrees: the material is interpolated "
+                      "there. Turn it more evenly",
+                      degrees(found.widest)));
     }
   }
 
@@ -293,19 +233,22 @@ class Builder {
     for (std::size_t i = 0; i < result_.frames.size(); ++i) {
       CaptureFrame& frame = result_.frames[i];
       frame.radius = radius;
-      frame.centre = circular && frame.dropped.empty() ? wobble.at(frame.turned) : Vec2(notes_[i].centre * factor);
+      frame.centre =
+          circular && frame.dropped.empty() ? wobble.at(frame.turned) : Vec2(notes_[i].centre * factor);
     }
     result_.sphere = sphere_at(result_.camera, wobble.middle, radius);
     if (!circular) {
-      result_.warnings.push_back(fmt::format(
-          "the sphere does not turn about a fixed axis (its picture strays by {:.1f} pixels from a circle): the stand may "
-          "have been touched. Each frame was measured alone",
-          wobble.rms));
+      result_.warnings.push_back(
+          fmt::format("the sphere does not turn about a fixed axis (its picture strays by {:.1f} pixels from "
+                      "a circle): the stand may "
+                      "have been touched. Each frame was measured alone",
+                      wobble.rms));
     }
     if (support < 0.5) {
-      result_.warnings.push_back(fmt::format(
-          "only {:.0f} % of the outline stands out against the background: put something plain behind the sphere",
-          100 * support));
+      result_.warnings.push_back(
+          fmt::format("only {:.0f} % of the outline stands out against the background: put something plain "
+                      "behind the sphere",
+                      100 * support));
     }
   }
 
@@ -317,21 +260,62 @@ class Builder {
     for (std::size_t i = 0; i < result_.frames.size(); ++i) result_.frames[i].gain = photometry.gain[i];
     if (!photometry.measured) {
       result_.warnings.push_back(
-          "too little of the picture stands still and is lit, so exposure drift was not removed. Leave some lit background "
+          "too little of the picture stands still and is lit, so exposure drift was not removed. Leave some "
+          "lit background "
           "around the sphere, or fix the camera's exposure");
     }
     if (photometry.drift > 0.15) {
-      result_.warnings.push_back(fmt::format(
-          "the exposure changes by up to {:.0f} %: the light flickers or the camera adapts. It was removed; fix exposure and "
-          "white balance for less noise",
-          100 * photometry.drift));
+      result_.warnings.push_back(
+          fmt::format("the exposure changes by up to {:.0f} %: the light flickers or the camera adapts. It "
+                      "was removed; fix exposure and "
+                      "white balance for less noise",
+                      100 * photometry.drift));
     }
     if (photometry.banding > 0.02) {
       result_.warnings.push_back(fmt::format(
-          "the upper and lower half of the picture flicker apart by {:.1f} %: a lamp pulses faster than the camera reads a "
+          "the upper and lower half of the picture flicker apart by {:.1f} %: a lamp pulses faster than the "
+          "camera reads a "
           "frame. Use a flicker-free lamp or an exposure of a whole mains period (1/50 or 1/60 s)",
           100 * photometry.banding));
     }
+  }
+
+  /// A stand in front of the sphere does not turn: it is no more active than the background.
+  void hide_what_stands_still(const RectifyMap& map) {
+    const int size = options_.size;
+    const int width = look_.camera.width;
+    std::vector<std::size_t> still;
+    double inside = 0;
+    for (int y = 0; y < size; ++y) {
+      for (int x = 0; x < size; ++x) {
+        const Vec2 disc = disc_of_pixel(x, y, size);
+        const Vec2 p = map.pixel(x, y) / look_.factor;
+        if (disc.norm() > 0.96 || p.x() < 2) continue;
+        ++inside;
+        // The quietest of a plus of pixels would be chance; the loudest has to be quiet.
+        float loudest = 0;
+        for (const auto& [u, v] : {std::pair{0, 0}, {-1, 0}, {1, 0}, {0, -1}, {0, 1}}) {
+          const auto i =
+              (static_cast<std::ptrdiff_t>(p.y()) + v) * width + static_cast<std::ptrdiff_t>(p.x()) + u;
+          loudest = std::max(loudest, look_.scouting.activity[static_cast<std::size_t>(i)]);
+        }
+        if (static_cast<double>(loudest) < 2 * look_.scouting.noise)
+          still.push_back(static_cast<std::size_t>(y * size + x));
+      }
+    }
+    const double share = static_cast<double>(still.size()) / std::max(1.0, inside);
+    if (share < 0.003) return;
+    if (share > 0.25) {
+      result_.warnings.push_back(fmt::format(
+          "{:.0f} % of the sphere hardly changes as it turns: it is plain there, very dark, or covered",
+          100 * share));
+      return;
+    }
+    for (const std::size_t i : still) stack_.points[i].visible = false;
+    result_.warnings.push_back(
+        fmt::format("{:.1f} % of the sphere stands still, as behind a stand, and was filled from its "
+                    "neighbours: keep the front clear",
+                    100 * share));
   }
 
   void rectify_frames() {
@@ -343,6 +327,7 @@ class Builder {
     for (int y = 0; y < options_.size; ++y) {
       for (int x = 0; x < options_.size; ++x) stack_.points.push_back(map.point(x, y));
     }
+    hide_what_stands_still(map);
     std::vector<int> indices;
     for (const std::size_t i : used()) indices.push_back(static_cast<int>(i));
     std::ranges::sort(indices);
@@ -376,9 +361,10 @@ class Builder {
     }
     result_.clipped_share = samples > 0 ? clipped / samples : 0;
     if (result_.clipped_share > 0.01) {
-      result_.warnings.push_back(fmt::format(
-          "{:.1f} % of the material is clipped: highlights will look flat. Expose shorter, or bracket exposures",
-          100 * result_.clipped_share));
+      result_.warnings.push_back(
+          fmt::format("{:.1f} % of the material is clipped: highlights will look flat. Expose shorter, or "
+                      "bracket exposures",
+                      100 * result_.clipped_share));
     }
     if (!options_.mask.empty()) read_painted_mask();
     if (options_.find_blemishes) find_seams();
@@ -393,16 +379,17 @@ class Builder {
   void read_painted_mask() {
     const Image painting = read_data(options_.mask);
     if (painting.width != source_.width() || painting.height != source_.height()) {
-      throw Error(fmt::format("{}: is {} x {}, the frames are {} x {}", options_.mask.string(), painting.width,
-                              painting.height, source_.width(), source_.height()));
+      throw Error(fmt::format("{}: is {} x {}, the frames are {} x {}", options_.mask.string(),
+                              painting.width, painting.height, source_.width(), source_.height()));
     }
     if (options_.mask_frame < 0 || options_.mask_frame >= static_cast<int>(result_.frames.size())) {
       throw Error(fmt::format("the mask is said to be painted on frame {}, there are {}", options_.mask_frame,
                               result_.frames.size()));
     }
     const CaptureFrame& frame = result_.frames[static_cast<std::size_t>(options_.mask_frame)];
-    result_.mask = mask_from_painting(painting, result_.camera, sphere_at(result_.camera, frame.centre, frame.radius),
-                                      result_.axis, frame.turned, options_.size);
+    result_.mask =
+        mask_from_painting(painting, result_.camera, sphere_at(result_.camera, frame.centre, frame.radius),
+                           result_.axis, frame.turned, options_.size);
   }
 
   void find_seams() {
@@ -410,10 +397,11 @@ class Builder {
     // Once more without what was found, so that it no longer pulls the medians.
     if (found.share > 0) found = find_blemishes(stack_, united(result_.mask, found));
     if (found.share > 0.4) {
-      result_.warnings.push_back(fmt::format(
-          "the surface is so uneven that {:.0f} % of it would count as seam; nothing was masked. Paint a mask on one frame "
-          "(--mask) if there is a seam",
-          100 * found.share));
+      result_.warnings.push_back(
+          fmt::format("the surface is so uneven that {:.0f} % of it would count as seam; nothing was masked. "
+                      "Paint a mask on one frame "
+                      "(--mask) if there is a seam",
+                      100 * found.share));
       return;
     }
     result_.mask = united(found, result_.mask);
@@ -423,17 +411,21 @@ class Builder {
     first_angle_ = options_.zero_angle;
     switch (options_.zero) {
       case ZeroAngle::first_frame:
-        result_.zero_source = options_.zero_given ? "angle of the first frame given" : "not given: first frame is 0";
+        result_.zero_source =
+            options_.zero_given ? "angle of the first frame given" : "not given: first frame is 0";
         if (!options_.zero_given) {
           result_.warnings.push_back(
-              "the tangent's direction is unknown, so the first frame's was called 0 degrees. Give --first-angle, or "
-              "--thread-direction read off a picture, or --tangent-from-seam when the cloth is sewn at a pole");
+              "the tangent's direction is unknown, so the first frame's was called 0 degrees. Give "
+              "--first-angle, or "
+              "--thread-direction read off a picture, or --tangent-from-seam when the cloth is sewn at a "
+              "pole");
         }
         break;
       case ZeroAngle::thread: {
         const auto count = static_cast<int>(result_.frames.size());
         if (options_.zero_frame < 0 || options_.zero_frame >= count) {
-          throw Error(fmt::format("the thread is read off frame {}, there are {}", options_.zero_frame, count));
+          throw Error(
+              fmt::format("the thread is read off frame {}, there are {}", options_.zero_frame, count));
         }
         first_angle_ -= result_.frames[static_cast<std::size_t>(options_.zero_frame)].turned;
         result_.zero_source = "thread direction read off a frame";
@@ -443,28 +435,32 @@ class Builder {
         double direction = 0;
         if (!mask_direction(result_.mask, direction)) {
           throw Error(
-              "no seam found to one side of the sphere's middle, so the tangent cannot be taken from it; paint it on one "
+              "no seam found to one side of the sphere's middle, so the tangent cannot be taken from it; "
+              "paint it on one "
               "frame (--mask) or give --first-angle");
         }
         first_angle_ += direction;
-        result_.zero_source = fmt::format("seam found at {:.1f} degrees in the first frame", degrees(direction));
+        result_.zero_source =
+            fmt::format("seam found at {:.1f} degrees in the first frame", degrees(direction));
         break;
       }
       case ZeroAngle::weave: {
         double direction = 0;
         if (!weave_direction(stack_, direction)) {
-          throw Error("no weave is visible to take the tangent from; give --first-angle or --thread-direction");
+          throw Error(
+              "no weave is visible to take the tangent from; give --first-angle or --thread-direction");
         }
         first_angle_ += direction;
-        result_.zero_source = fmt::format("weave found at {:.1f} degrees in the first frame", degrees(direction));
+        result_.zero_source =
+            fmt::format("weave found at {:.1f} degrees in the first frame", degrees(direction));
         break;
       }
     }
     for (CaptureFrame& frame : result_.frames) frame.angle = wrap(first_angle_ + frame.turned, 2 * kPi);
   }
 
-  /// What a seam hid says nothing about symmetry: there the slice half a turn on stands in, which for R = 2 and 4 is as
-  /// good as leaving it out.
+  /// What a seam hid says nothing about symmetry: there the slice half a turn on stands in, which for R = 2
+  /// and 4 is as good as leaving it out.
   void take_unseen_from_opposite(AssembledSlices& whole) const {
     const auto texels = static_cast<std::size_t>(options_.size) * static_cast<std::size_t>(options_.size);
     const std::vector<Image> original = whole.slices;
@@ -508,20 +504,65 @@ class Builder {
     report(options_.progress, 1);
   }
 
+  /// The ball stands where the sphere stood, perhaps a little larger or smaller.
+  void read_mirror_ball() {
+    FrameSource source = FrameSource::open({options_.mirror_ball}, options_.source);
+    if (source.width() != source_.width() || source.height() != source_.height()) {
+      throw Error(fmt::format("{}: is {} x {}, the frames are {} x {}", options_.mirror_ball.string(),
+                              source.width(), source.height(), source_.width(), source_.height()));
+    }
+    const Frame frame = source.read(0);
+    const GreyPicture grey = grey_picture(frame, look_.factor);
+    Vec2 centre = look_.centre;
+    double radius = look_.outline.radius;
+    double support = 0;
+    for (const double reach : {0.15 * radius, 6.0, 3.0}) {
+      const OutlineOffset offset = measure_outline(grey, 1, look_.outline.plate, look_.camera,
+                                                   sphere_at(look_.camera, centre, radius), reach, false);
+      centre += offset.shift;
+      radius += offset.growth;
+      support = offset.support;
+    }
+    if (support < 0.4) {
+      throw Error(fmt::format("{}: no ball is found where the sphere stood; put it on the same stand",
+                              options_.mirror_ball.string()));
+    }
+    const SphereView ball = sphere_at(result_.camera, centre * look_.factor, radius * look_.factor);
+    result_.environment =
+        mirror_ball_environment(frame, result_.camera, ball, kEnvironmentWidth, options_.mirror_reflectance);
+  }
+
+  /// What a wrong guess of the lens costs grows with how much of the view the sphere fills.
+  void warn_of_lens() {
+    const double half = result_.sphere.half_angle();
+    const double bend = std::abs(std::sin(std::atan(0.5 * std::tan(half))) / std::sin(half) - 0.5);
+    result_.warnings.push_back(
+        fmt::format("the lens is unknown, so a horizontal field of view of {:.0f} degrees was assumed. If it "
+                    "is much longer, normals are "
+                    "off by about {:.1f} and tangents by about {:.1f} degrees half-way to the rim. Give "
+                    "--focal-mm with --sensor-mm, "
+                    "--fov, or a calibration (sateen capture calibrate)",
+                    kAssumedFov, degrees(bend), degrees(half / 2)));
+  }
+
   void warn_of_framing() {
     const double radius = look_.outline.radius * look_.factor;
     const double fills = 200 * radius / source_.height();
     if (fills < 35 || 2 * radius < 1.2 * options_.size) {
-      result_.warnings.push_back(fmt::format(
-          "the sphere fills {:.0f} % of the picture's height ({:.0f} pixels for {} texels): move closer or use a longer lens",
-          fills, 2 * radius, options_.size));
+      result_.warnings.push_back(
+          fmt::format("the sphere fills {:.0f} % of the picture's height ({:.0f} pixels for {} texels): move "
+                      "closer or use a longer lens",
+                      fills, 2 * radius, options_.size));
     }
-    const double towards = degrees(std::acos(std::clamp(-result_.axis.dot(result_.sphere.centre.normalized()), -1.0, 1.0)));
+    if (result_.camera.focal_source == "assumed") warn_of_lens();
+    const double towards =
+        degrees(std::acos(std::clamp(-result_.axis.dot(result_.sphere.centre.normalized()), -1.0, 1.0)));
     if (towards > 5) {
-      result_.warnings.push_back(fmt::format(
-          "the turning axis points {:.1f} degrees past the camera: parts of the material are seen only in part of the turn. "
-          "Point the axis at the lens",
-          towards));
+      result_.warnings.push_back(
+          fmt::format("the turning axis points {:.1f} degrees past the camera: parts of the material are "
+                      "seen only in part of the turn. "
+                      "Point the axis at the lens",
+                      towards));
     }
   }
 

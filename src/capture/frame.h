@@ -9,8 +9,8 @@
 
 namespace sateen {
 
-/// From the code values of a camera or file to linear light, both in [0, 1]; any number of evenly spaced entries,
-/// linear between them.
+/// From the code values of a camera or file to linear light, both in [0, 1]; any number of evenly spaced
+/// entries, linear between them.
 struct Response {
   std::vector<float> curve;
 

@@ -52,14 +52,15 @@ FrameSource FrameSource::open(const std::vector<fs::path>& inputs, const FrameSo
     source.stride_ = std::max(1, (frames + options.max_frames - 1) / options.max_frames);
     source.count_ = (frames + source.stride_ - 1) / source.stride_;
     if (source.stride_ > 1) {
-      source.warnings_.push_back(fmt::format("the video has {} frames; every {}th is used (--max-frames)", frames,
-                                             source.stride_));
+      source.warnings_.push_back(
+          fmt::format("the video has {} frames; every {}th is used (--max-frames)", frames, source.stride_));
     }
     return source;
   }
   for (const fs::path& input : inputs) {
     if (is_video_file(input)) {
-      throw Error(fmt::format("{}: a video has to be the only input, without other files beside it", input.string()));
+      throw Error(
+          fmt::format("{}: a video has to be the only input, without other files beside it", input.string()));
     }
   }
   source.files_ = expand_inputs(inputs, image_extensions());
@@ -71,8 +72,8 @@ FrameSource FrameSource::open(const std::vector<fs::path>& inputs, const FrameSo
   if (over > 1) {
     source.stride_ = over;
     source.count_ = (source.count_ + over - 1) / over;
-    source.warnings_.push_back(fmt::format("{} photographs given; every {}th is used (--max-frames)",
-                                           source.files_.size(), over));
+    source.warnings_.push_back(
+        fmt::format("{} photographs given; every {}th is used (--max-frames)", source.files_.size(), over));
   }
   const Frame first = source.decode(0);
   source.width_ = first.width();
@@ -123,44 +124,42 @@ void FrameSource::visit(std::span<const int> indices, const std::function<void(i
 
   tbb::parallel_pipeline(
       tokens,
-      tbb::make_filter<void, Item>(tbb::filter_mode::serial_in_order,
-                                   [&](tbb::flow_control& control) {
-                                     Item item;
-                                     if (next >= indices.size()) {
-                                       control.stop();
-                                       return item;
-                                     }
-                                     item.index = indices[next++];
-                                     if (!video_) return item;
-                                     const int wanted = item.index * stride_;
-                                     bool more = true;
-                                     while (more && position < wanted) {
-                                       more = reader->skip();
-                                       position += more ? 1 : 0;
-                                     }
-                                     more = more && reader->next(item.picture);
-                                     position += more ? 1 : 0;
-                                     if (!more) {
-                                       const int readable = (position + stride_ - 1) / stride_;
-                                       if (readable < count_) {
-                                         warnings_.push_back(fmt::format(
-                                             "{}: promises {} frames, but only {} can be decoded: its end is "
-                                             "damaged or its index is wrong",
-                                             files_[0].filename().string(), count_ * stride_, position));
-                                         count_ = readable;
-                                       }
-                                       control.stop();
-                                     }
-                                     return item;
-                                   }) &
-          tbb::make_filter<Item, void>(tbb::filter_mode::parallel, [&](Item item) {
-            const Frame frame = video_ ? Frame(std::move(item.picture), response_) : decode(item.index);
-            if (frame.width() != width_ || frame.height() != height_) {
-              throw Error(fmt::format("{}: is {} x {} pixels, the first frame is {} x {}; all must be alike",
-                                      path(item.index).string(), frame.width(), frame.height(), width_, height_));
-            }
-            body(item.index, frame);
-          }));
+      tbb::make_filter<void, Item>(tbb::filter_mode::serial_in_order, [&](tbb::flow_control& control) {
+        Item item;
+        if (next >= indices.size()) {
+          control.stop();
+          return item;
+        }
+        item.index = indices[next++];
+        if (!video_) return item;
+        const int wanted = item.index * stride_;
+        bool more = true;
+        while (more && position < wanted) {
+          more = reader->skip();
+          position += more ? 1 : 0;
+        }
+        more = more && reader->next(item.picture);
+        position += more ? 1 : 0;
+        if (!more) {
+          const int readable = (position + stride_ - 1) / stride_;
+          if (readable < count_) {
+            warnings_.push_back(
+                fmt::format("{}: promises {} frames, but only {} can be decoded: its end is "
+                            "damaged or its index is wrong",
+                            files_[0].filename().string(), count_ * stride_, position));
+            count_ = readable;
+          }
+          control.stop();
+        }
+        return item;
+      }) & tbb::make_filter<Item, void>(tbb::filter_mode::parallel, [&](Item item) {
+        const Frame frame = video_ ? Frame(std::move(item.picture), response_) : decode(item.index);
+        if (frame.width() != width_ || frame.height() != height_) {
+          throw Error(fmt::format("{}: is {} x {} pixels, the first frame is {} x {}; all must be alike",
+                                  path(item.index).string(), frame.width(), frame.height(), width_, height_));
+        }
+        body(item.index, frame);
+      }));
 }
 
 Frame FrameSource::read(int index) {

@@ -21,10 +21,11 @@ struct FrameSourceOptions {
 /// The pictures of a capture, from files or a video, decoded when they are needed and never all in memory.
 class FrameSource {
  public:
-  /// Photographs (files and folders, natural order) or one video. Photographs bracketed by exposure time (EXIF,
-  /// the same few times over and over) are merged, each group one frame.
-  /// Throws Error for missing files, a mix of photographs and video, pictures of different sizes.
-  static FrameSource open(const std::vector<std::filesystem::path>& inputs, const FrameSourceOptions& options);
+  /// Photographs (files and folders, natural order) or one video. Photographs bracketed by exposure time
+  /// (EXIF, the same few times over and over) are merged, each group one frame. Throws Error for missing
+  /// files, a mix of photographs and video, pictures of different sizes.
+  static FrameSource open(const std::vector<std::filesystem::path>& inputs,
+                          const FrameSourceOptions& options);
 
   /// An upper bound for a video whose index lies, until it was visited once.
   int count() const { return count_; }
@@ -36,8 +37,9 @@ class FrameSource {
   const std::filesystem::path& path(int index) const;
   const std::vector<std::string>& warnings() const { return warnings_; }
 
-  /// Calls body(index, frame) for each of `indices` (ascending), from several threads at once, with only a few frames in
-  /// memory at any time. Throws what decoding and `body` throw; an Error for a picture of another size.
+  /// Calls body(index, frame) for each of `indices` (ascending), from several threads at once, with only a
+  /// few frames in memory at any time. Throws what decoding and `body` throw; an Error for a picture of
+  /// another size.
   void visit(std::span<const int> indices, const std::function<void(int, const Frame&)>& body);
 
   /// Frame `index` alone; of a video everything before it is decoded too.

@@ -33,7 +33,8 @@ FirstLook first_look(FrameSource& source, const Camera& camera, const Progress& 
   std::erase_if(greys, [](const GreyPicture& grey) { return grey.codes.empty(); });
   look.scouting = find_sphere(greys);
   look.outline = fit_outlines(greys, look.scouting, look.camera);
-  for (const Vec2& c : look.outline.centres) look.centre += c / static_cast<double>(look.outline.centres.size());
+  for (const Vec2& c : look.outline.centres)
+    look.centre += c / static_cast<double>(look.outline.centres.size());
   for (const Vec2& c : look.outline.centres) look.reach = std::max(look.reach, (c - look.centre).norm());
   look.scouting.centre = look.centre;
   look.scouting.radius = look.outline.radius;
@@ -42,7 +43,8 @@ FirstLook first_look(FrameSource& source, const Camera& camera, const Progress& 
   for (const Eigen::Vector2i& p : look.still.pixels) {
     const int x = p.x() / look.factor;
     const int y = p.y() / look.factor;
-    const double code = static_cast<double>(look.scouting.mean[static_cast<std::size_t>(y * greys[0].width + x)]);
+    const double code =
+        static_cast<double>(look.scouting.mean[static_cast<std::size_t>(y * greys[0].width + x)]);
     look.still_grey.push_back(code * code / (255.0 * 255.0));
   }
   return look;
@@ -90,7 +92,8 @@ std::vector<FrameNotes> measure_frames(FrameSource& source, const FirstLook& loo
       note.support = offset.support;
       if (offset.support > 0.25) note.centre += offset.shift;
     }
-    note.patch = surface_patch(grey, look.camera, sphere_at(look.camera, note.centre, radius), axes, patch_size);
+    note.patch =
+        surface_patch(grey, look.camera, sphere_at(look.camera, note.centre, radius), axes, patch_size);
     note.read = true;
     report(progress, static_cast<double>(++done) / static_cast<double>(indices.size()));
   });

@@ -11,13 +11,13 @@ namespace sateen {
 
 /// What a first look at a few frames finds: where the sphere is, and what stands still. In grey pixels.
 struct FirstLook {
-  int factor = 1;            ///< picture pixels per grey pixel
-  Camera camera;             ///< of the grey pictures
+  int factor = 1;  ///< picture pixels per grey pixel
+  Camera camera;   ///< of the grey pictures
   Scouting scouting;
   OutlineFit outline;
-  Vec2 centre{0, 0};         ///< mean of the scouts' centres
-  double reach = 0;          ///< farthest scout centre from it
-  StillPoints still;         ///< in picture pixels
+  Vec2 centre{0, 0};               ///< mean of the scouts' centres
+  double reach = 0;                ///< farthest scout centre from it
+  StillPoints still;               ///< in picture pixels
   std::vector<double> still_grey;  ///< mean light of each still point, grey
 };
 
@@ -25,8 +25,8 @@ FirstLook first_look(FrameSource& source, const Camera& camera, const Progress& 
 
 /// What the first pass notes of every frame.
 struct FrameNotes {
-  bool read = false;         ///< false: a damaged video ended before it
-  Vec2 centre{0, 0};         ///< grey pixels
+  bool read = false;  ///< false: a damaged video ended before it
+  Vec2 centre{0, 0};  ///< grey pixels
   double support = 0;
   SurfacePatch patch;
   std::vector<Vec3f> still;

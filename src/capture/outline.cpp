@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "sateen/capture/outline.h"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
-
-#include <Eigen/Cholesky>
 
 #include "sateen/core/error.h"
 #include "sateen/core/parallel.h"
@@ -42,7 +41,9 @@ double plate_at(const Plate& plate, double x, double y) {
   const int y0 = static_cast<int>(cy);
   const int x1 = std::min(x0 + 1, plate.width - 1);
   const int y1 = std::min(y0 + 1, plate.height - 1);
-  const auto value = [&](int u, int v) { return static_cast<double>(plate.light[static_cast<std::size_t>(v * plate.width + u)]); };
+  const auto value = [&](int u, int v) {
+    return static_cast<double>(plate.light[static_cast<std::size_t>(v * plate.width + u)]);
+  };
   const double a = value(x0, y0);
   const double b = value(x1, y0);
   const double c = value(x0, y1);
@@ -150,8 +151,8 @@ OutlineOffset measure_outline(const GreyPicture& frame, double gain, const Plate
 namespace {
 
 /// The background in a ring around the spheres: the median over the frames that show it clear of the outline.
-Plate background_plate(std::span<const GreyPicture> frames, const Scouting& scouting, const std::vector<Vec2>& centres,
-                       double radius, double margin) {
+Plate background_plate(std::span<const GreyPicture> frames, const Scouting& scouting,
+                       const std::vector<Vec2>& centres, double radius, double margin) {
   Plate plate;
   plate.width = frames[0].width;
   plate.height = frames[0].height;
@@ -204,8 +205,8 @@ OutlineFit fit_outlines(std::span<const GreyPicture> frames, const Scouting& sco
     parallel_for(static_cast<int>(n), [&](int f) {
       const auto i = static_cast<std::size_t>(f);
       const SphereView sphere = sphere_at(camera, fit.centres[i], fit.radius);
-      offsets[i] = measure_outline(frames[i], static_cast<double>(scouting.gain[i]), fit.plate, camera, sphere,
-                                   reaches[round], false);
+      offsets[i] = measure_outline(frames[i], static_cast<double>(scouting.gain[i]), fit.plate, camera,
+                                   sphere, reaches[round], false);
     });
     std::vector<double> growths;
     for (const OutlineOffset& offset : offsets) {
@@ -213,14 +214,16 @@ OutlineFit fit_outlines(std::span<const GreyPicture> frames, const Scouting& sco
     }
     if (growths.size() * 2 < n) {
       throw Error(
-          "the sphere's outline cannot be told from the background; put something plain behind it that is brighter or "
+          "the sphere's outline cannot be told from the background; put something plain behind it that is "
+          "brighter or "
           "darker than the material");
     }
     const double growth = median(growths);
     fit.radius += growth;
     fit.support = 0;
     for (std::size_t i = 0; i < n; ++i) {
-      // With the common radius the shift is what is left; growth and shift are independent around a whole outline.
+      // With the common radius the shift is what is left; growth and shift are independent around a whole
+      // outline.
       if (offsets[i].support > 0.3) fit.centres[i] += offsets[i].shift;
       fit.residuals[i] = offsets[i].residual;
       fit.support += offsets[i].support / static_cast<double>(n);

@@ -19,8 +19,8 @@ double median(std::vector<double>& values) {
 
 }  // namespace
 
-StillPoints still_points(const Scouting& scouting, int grey_width, int grey_height, int factor, double clearance,
-                         std::size_t count) {
+StillPoints still_points(const Scouting& scouting, int grey_width, int grey_height, int factor,
+                         double clearance, std::size_t count) {
   std::vector<Eigen::Vector2i> candidates;
   for (int y = 2; y < grey_height - 2; y += 2) {
     for (int x = 2; x < grey_width - 2; x += 2) {
@@ -54,7 +54,8 @@ std::vector<Vec3f> sample_still_points(const StillPoints& points, const Frame& f
   return samples;
 }
 
-Photometry solve_photometry(std::span<const std::vector<Vec3f>> samples, const StillPoints& points, int height) {
+Photometry solve_photometry(std::span<const std::vector<Vec3f>> samples, const StillPoints& points,
+                            int height) {
   const std::size_t frames = samples.size();
   const std::size_t n = points.pixels.size();
   Photometry result;
@@ -71,7 +72,8 @@ Photometry solve_photometry(std::span<const std::vector<Vec3f>> samples, const S
       for (int c = 0; c < 3; ++c) {
         values.clear();
         for (std::size_t f = 0; f < frames; ++f) {
-          if (samples[f][p][c] >= 0) values.push_back(static_cast<double>(samples[f][p][c]) / result.gain[f][c]);
+          if (samples[f][p][c] >= 0)
+            values.push_back(static_cast<double>(samples[f][p][c]) / result.gain[f][c]);
         }
         reference[p][c] = values.size() * 2 > frames ? median(values) : -1;
       }

@@ -9,7 +9,8 @@
 
 namespace sateen {
 
-RectifyMap::RectifyMap(const Camera& camera, const SphereView& mean, int size, TableFrame frame, double rim_pixels)
+RectifyMap::RectifyMap(const Camera& camera, const SphereView& mean, int size, TableFrame frame,
+                       double rim_pixels)
     : size_(size), frame_(frame), centre_(mean.centre_pixel(camera)) {
   const double radius = mean.radius_pixel(camera);
   const double footprint = 2 * radius / size;
@@ -23,19 +24,26 @@ RectifyMap::RectifyMap(const Camera& camera, const SphereView& mean, int size, T
   points_.resize(static_cast<std::size_t>(size) * static_cast<std::size_t>(size));
   parallel_for(fine, [&](int y) {
     for (int x = 0; x < fine; ++x) {
-      Sample& sample = grid_[static_cast<std::size_t>(y) * static_cast<std::size_t>(fine) + static_cast<std::size_t>(x)];
+      Sample& sample =
+          grid_[static_cast<std::size_t>(y) * static_cast<std::size_t>(fine) + static_cast<std::size_t>(x)];
       const Vec2 disc = disc_of_pixel(x, y, fine);
       sample = {};
       if (disc.norm() >= 1) continue;
       const SeenPoint point = point_of_disc(mean, disc, frame);
-      // Distance from the outline in sines of the angle to the view ray: what the eye frame's disc is made of.
+      // Distance from the outline in sines of the angle to the view ray: what the eye frame's disc is made
+      // of.
       const double cosine = point.normal.dot(point.towards_eye);
-      if (!point.visible || std::sqrt(std::max(0.0, 1 - cosine * cosine)) > visible_reach || cosine <= 0) continue;
+      if (!point.visible || std::sqrt(std::max(0.0, 1 - cosine * cosine)) > visible_reach || cosine <= 0)
+        continue;
       const Vec2 p = camera.project(mean.centre + point.normal);
       const Vec2 dx = camera.project(right.centre + point_of_disc(right, disc, frame).normal) - p;
       const Vec2 dy = camera.project(down.centre + point_of_disc(down, disc, frame).normal) - p;
-      sample = {static_cast<float>(p.x()),  static_cast<float>(p.y()),  static_cast<float>(dx.x()),
-                static_cast<float>(dx.y()), static_cast<float>(dy.x()), static_cast<float>(dy.y()),
+      sample = {static_cast<float>(p.x()),
+                static_cast<float>(p.y()),
+                static_cast<float>(dx.x()),
+                static_cast<float>(dx.y()),
+                static_cast<float>(dy.x()),
+                static_cast<float>(dy.y()),
                 true};
     }
   });
@@ -89,7 +97,8 @@ RectifiedFrame rectify(const RectifyMap& map, const Frame& frame, const Vec2& ce
       if (seen == 0) continue;
       const auto i = static_cast<std::size_t>(y * size + x);
       const Vec3f mean = (sum / static_cast<float>(seen)).cwiseProduct(scale);
-      for (int c = 0; c < 3; ++c) result.rgb[i * 3 + static_cast<std::size_t>(c)] = static_cast<Half>(mean[c]);
+      for (int c = 0; c < 3; ++c)
+        result.rgb[i * 3 + static_cast<std::size_t>(c)] = static_cast<Half>(mean[c]);
       result.weight[i] = static_cast<std::uint8_t>(255 * seen / (n * n));
       result.clipped[i] = static_cast<std::uint8_t>(255 * clipped / seen);
     }

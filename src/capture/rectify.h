@@ -11,8 +11,8 @@ namespace sateen {
 
 struct RectifiedFrame;
 
-/// Where in the picture each texel of a size x size table slice is seen (row 0 on top). Made once for the mean sphere;
-/// a frame whose sphere is a little beside it moves the samples along.
+/// Where in the picture each texel of a size x size table slice is seen (row 0 on top). Made once for the
+/// mean sphere; a frame whose sphere is a little beside it moves the samples along.
 class RectifyMap {
  public:
   /// `rim_pixels`: how close to the outline, in pixels, background may shine in (blur, demosaicing).
@@ -22,16 +22,17 @@ class RectifyMap {
   TableFrame frame() const { return frame_; }
   /// The texel's surface point for the mean sphere; `visible` is false where no frame shows it.
   const SeenPoint& point(int x, int y) const {
-    return points_[static_cast<std::size_t>(y) * static_cast<std::size_t>(size_) + static_cast<std::size_t>(x)];
+    return points_[static_cast<std::size_t>(y) * static_cast<std::size_t>(size_) +
+                   static_cast<std::size_t>(x)];
   }
   /// Pixel of the texel's centre for the mean sphere.
   Vec2 pixel(int x, int y) const;
 
  private:
   struct Sample {
-    float x, y;                      // pixel for the mean sphere
-    float along_x_x, along_x_y;      // how it moves when the centre moves a pixel right,
-    float along_y_x, along_y_y;      // and a pixel down
+    float x, y;                  // pixel for the mean sphere
+    float along_x_x, along_x_y;  // how it moves when the centre moves a pixel right,
+    float along_y_x, along_y_y;  // and a pixel down
     bool seen;
   };
   int size_ = 0;
@@ -41,15 +42,16 @@ class RectifyMap {
   std::vector<Sample> grid_;
   std::vector<SeenPoint> points_;
 
-  friend RectifiedFrame rectify(const RectifyMap& map, const Frame& frame, const Vec2& centre, const Vec3& gain);
+  friend RectifiedFrame rectify(const RectifyMap& map, const Frame& frame, const Vec2& centre,
+                                const Vec3& gain);
 };
 
 /// One slice as seen in one frame.
 struct RectifiedFrame {
   int size = 0;
-  std::vector<Half> rgb;               ///< light with the gain removed, 3 a texel, row 0 on top
-  std::vector<std::uint8_t> weight;    ///< 255: the whole texel was seen; 0: nothing of it
-  std::vector<std::uint8_t> clipped;   ///< 255: every sample was clipped
+  std::vector<Half> rgb;              ///< light with the gain removed, 3 a texel, row 0 on top
+  std::vector<std::uint8_t> weight;   ///< 255: the whole texel was seen; 0: nothing of it
+  std::vector<std::uint8_t> clipped;  ///< 255: every sample was clipped
 };
 
 /// `centre` is where this frame's sphere centre is seen, pixels; the light is divided by `gain`.

@@ -78,10 +78,12 @@ std::string chart(const CaptureResult& result, const std::string& title, const s
       dropped += fmt::format("<line x1='{0:.1f}' x2='{0:.1f}' y1='16' y2='104' class='drop'/>", x);
       continue;
     }
-    points += fmt::format("<circle cx='{:.1f}' cy='{:.1f}' r='1.4'/>", x, 100 - 80 * (value(result.frames[i]) - low) / range);
+    points += fmt::format("<circle cx='{:.1f}' cy='{:.1f}' r='1.4'/>", x,
+                          100 - 80 * (value(result.frames[i]) - low) / range);
   }
   return fmt::format(
-      "<figure><svg viewBox='0 0 450 120' role='img' aria-label='{0}'><rect x='40' y='16' width='400' height='88' "
+      "<figure><svg viewBox='0 0 450 120' role='img' aria-label='{0}'><rect x='40' y='16' width='400' "
+      "height='88' "
       "class='frame'/>{1}{2}<text x='36' y='24' text-anchor='end'>{3:.4g}</text><text x='36' y='104' "
       "text-anchor='end'>{4:.4g}</text></svg><figcaption>{0} ({5}) over the frames</figcaption></figure>",
       title, dropped, points, high, low, unit);
@@ -104,15 +106,19 @@ std::string framing(const CaptureResult& result, const std::string& picture) {
   const Vec2 from = pole - 0.45 * radius * tangent;
   const Vec2 to = pole + 0.45 * radius * tangent;
   return fmt::format(
-      "<svg viewBox='0 0 {0} {1}' class='wide' role='img' aria-label='What was found'><image width='{0}' height='{1}' "
-      "href='{2}'/><polygon points='{3}' class='outline'/><circle cx='{4:.1f}' cy='{5:.1f}' r='3' class='outline'/><path "
-      "d='M{6:.1f} {7:.1f}m-9 0h18m-9 -9v18' class='axis'/><line x1='{8:.1f}' y1='{9:.1f}' x2='{10:.1f}' y2='{11:.1f}' "
+      "<svg viewBox='0 0 {0} {1}' class='wide' role='img' aria-label='What was found'><image width='{0}' "
+      "height='{1}' "
+      "href='{2}'/><polygon points='{3}' class='outline'/><circle cx='{4:.1f}' cy='{5:.1f}' r='3' "
+      "class='outline'/><path "
+      "d='M{6:.1f} {7:.1f}m-9 0h18m-9 -9v18' class='axis'/><line x1='{8:.1f}' y1='{9:.1f}' x2='{10:.1f}' "
+      "y2='{11:.1f}' "
       "class='tangent'/><circle cx='{10:.1f}' cy='{11:.1f}' r='4' class='tangent'/></svg>",
-      result.preview.width, result.preview.height, picture, outline, centre.x(), centre.y(), pole.x(), pole.y(), from.x(),
-      from.y(), to.x(), to.y());
+      result.preview.width, result.preview.height, picture, outline, centre.x(), centre.y(), pole.x(),
+      pole.y(), from.x(), from.y(), to.x(), to.y());
 }
 
-/// The body seen along the axis in the first frame: grey, lighter or darker where it deviates, red where it is masked.
+/// The body seen along the axis in the first frame: grey, lighter or darker where it deviates, red where it
+/// is masked.
 Image mask_picture(const CaptureResult& result) {
   const int size = result.mask.size > 0 ? result.mask.size : result.table.size;
   Image picture(size, size, 3, 0.02f);
@@ -156,31 +162,36 @@ table{border-collapse:collapse}td,th{padding:.15rem .8rem .15rem 0;text-align:le
 )";
 
 std::string facts(const CaptureResult& result) {
-  const auto used = std::ranges::count_if(result.frames, [](const CaptureFrame& f) { return f.dropped.empty(); });
+  const auto used =
+      std::ranges::count_if(result.frames, [](const CaptureFrame& f) { return f.dropped.empty(); });
   const Vec2 centre = result.sphere.centre_pixel(result.camera);
   std::string rows;
   const auto row = [&](const std::string& name, const std::string& value) {
     rows += "<tr><th>" + name + "</th><td>" + escaped(value) + "</td></tr>";
   };
   row("Frames", fmt::format("{} used of {}", used, result.frames.size()));
-  row("Sphere", fmt::format("centre ({:.1f}, {:.1f}), radius {:.1f} pixels; it wobbles by {:.1f}, {:.2f} unexplained",
-                            centre.x(), centre.y(), result.sphere.radius_pixel(result.camera), result.wobble,
-                            result.wobble_rms));
+  row("Sphere",
+      fmt::format("centre ({:.1f}, {:.1f}), radius {:.1f} pixels; it wobbles by {:.1f}, {:.2f} unexplained",
+                  centre.x(), centre.y(), result.sphere.radius_pixel(result.camera), result.wobble,
+                  result.wobble_rms));
   row("Turn", fmt::format("{:.1f} degrees {}, {}", std::abs(degrees(result.turned)),
                           result.turned >= 0 ? "counter-clockwise" : "clockwise",
                           result.equal_steps ? "in equal steps" : "in unequal steps"));
   row("Tangent", result.zero_source);
-  row("Lens", fmt::format("focal length {:.0f} pixels ({})", result.camera.focal.x(), result.camera.focal_source));
+  row("Lens",
+      fmt::format("focal length {:.0f} pixels ({})", result.camera.focal.x(), result.camera.focal_source));
   row("Light", fmt::format("exposure drift {:.1f} %, clipped {:.1f} %", 100 * result.photometry.drift,
                            100 * result.clipped_share));
   row("Seams", fmt::format("{:.1f} % of the surface masked", 100 * result.mask.share));
   std::string similar;
   for (const Similarity& s : result.symmetry.similarities) {
-    if (s.turns > 1) similar += fmt::format("{}R = {}: {:.1f} dB", similar.empty() ? "" : ", ", s.turns, s.psnr);
+    if (s.turns > 1)
+      similar += fmt::format("{}R = {}: {:.1f} dB", similar.empty() ? "" : ", ", s.turns, s.psnr);
   }
-  row("Symmetry", fmt::format("R = {}{} ({})", result.table.symmetry, result.table.isotropic ? ", isotropic" : "", similar));
-  row("Table", fmt::format("{0} x {0} x {1}, {2:.1f} % measured, the rest filled", result.table.size, result.table.slices,
-                           100 * result.seen_share));
+  row("Symmetry", fmt::format("R = {}{} ({})", result.table.symmetry,
+                              result.table.isotropic ? ", isotropic" : "", similar));
+  row("Table", fmt::format("{0} x {0} x {1}, {2:.1f} % measured, the rest filled", result.table.size,
+                           result.table.slices, 100 * result.seen_share));
   return "<table>" + rows + "</table>";
 }
 
@@ -199,30 +210,34 @@ void write_report(const fs::path& folder, const CaptureResult& result) {
   const std::string verdict =
       result.warnings.empty()
           ? "<p class='good'>Nothing to complain about: this capture can be used.</p>"
-          : fmt::format("<p class='look'>Usable, but look at {} before you put the sphere away:</p><ul>{}</ul>",
-                        result.warnings.size() == 1 ? "one thing" : fmt::format("{} things", result.warnings.size()),
-                        warnings);
+          : fmt::format(
+                "<p class='look'>Usable, but look at {} before you put the sphere away:</p><ul>{}</ul>",
+                result.warnings.size() == 1 ? "one thing" : fmt::format("{} things", result.warnings.size()),
+                warnings);
   std::string dropped;
   for (const CaptureFrame& frame : result.frames) {
     if (!frame.dropped.empty()) dropped += fmt::format("<li>{}: {}</li>", escaped(frame.file), frame.dropped);
   }
   if (!dropped.empty()) dropped = "<h2>Frames left out</h2><ul>" + dropped + "</ul>";
   const auto picture = [&](const Image& image, const std::string& caption) {
-    return fmt::format("<figure><img src='{}' alt='{}'><figcaption>{}</figcaption></figure>", data_url(folder, image), caption,
-                       caption);
+    return fmt::format("<figure><img src='{}' alt='{}'><figcaption>{}</figcaption></figure>",
+                       data_url(folder, image), caption, caption);
   };
   const Vec2 middle = result.sphere.centre_pixel(result.camera);
   const std::string html = fmt::format(
-      "<!doctype html><html lang='en'><meta charset='utf-8'><meta name='viewport' content='width=device-width'>"
+      "<!doctype html><html lang='en'><meta charset='utf-8'><meta name='viewport' "
+      "content='width=device-width'>"
       "<title>Capture report</title><style>{}</style><h1>Capture report</h1>{}{}"
-      "<h2>What was found</h2>{}<p><small>Green: the sphere's outline and centre. Yellow cross: where the turning axis leaves "
+      "<h2>What was found</h2>{}<p><small>Green: the sphere's outline and centre. Yellow cross: where the "
+      "turning axis leaves "
       "it. Pink: the tangent's direction in this frame.</small></p><h2>Slices</h2>{}<h2>Frame by frame</h2>"
       "<div class='row'>{}{}{}{}</div><h2>Seams and highlights</h2><div class='row'>{}{}</div>{}</html>\n",
       kStyle, verdict, facts(result), framing(result, data_url(folder, result.preview)),
       picture(contact_sheet(result.table), "Slices at eight tangent angles, and two cuts along the angle"),
       chart(result, "Turned", "degrees", [](const CaptureFrame& f) { return degrees(f.turned); }),
       chart(result, "Exposure", "relative", [](const CaptureFrame& f) { return f.gain.y(); }),
-      chart(result, "Centre across", "pixels", [&](const CaptureFrame& f) { return f.centre.x() - middle.x(); }),
+      chart(result, "Centre across", "pixels",
+            [&](const CaptureFrame& f) { return f.centre.x() - middle.x(); }),
       chart(result, "Sharpness", "relative", [](const CaptureFrame& f) { return f.sharpness; }),
       picture(mask_picture(result), "The surface as it lies in the first frame; red: masked"),
       picture(clipped_picture(result), "Bright: clipped in many frames"), dropped);

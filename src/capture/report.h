@@ -8,14 +8,14 @@
 
 namespace sateen {
 
-/// The report as JSON text: `frames` (file, angle_degrees, turned_degrees, center, radius, exposure, white_balance,
-/// sharpness, used, dropped), `sphere`, `camera`, `axis`, `turn`, `photometry`, `symmetry`, `mask`, `warnings`. Its keys
-/// are described in docs/capture.md.
+/// The report as JSON text: `frames` (file, angle_degrees, turned_degrees, center, radius, exposure,
+/// white_balance, sharpness, used, dropped), `sphere`, `camera`, `axis`, `turn`, `photometry`, `symmetry`,
+/// `mask`, `warnings`. Its keys are described in docs/capture.md.
 std::string report_json(const CaptureResult& result);
 
-/// DIR/report.json and DIR/report.html, one page that needs no other file: the outline and axis on a frame, curves of angle
-/// and exposure, the mask, slices, symmetry, and warnings with what to do. Makes the folder. Throws Error when it cannot be
-/// written.
+/// DIR/report.json and DIR/report.html, one page that needs no other file: the outline and axis on a frame,
+/// curves of angle and exposure, the mask, slices, symmetry, and warnings with what to do. Makes the folder.
+/// Throws Error when it cannot be written.
 void write_report(const std::filesystem::path& folder, const CaptureResult& result);
 
 }  // namespace sateen

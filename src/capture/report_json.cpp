@@ -31,7 +31,8 @@ std::string report_json(const CaptureResult& result) {
                {"center", {fine(frame.centre.x()), fine(frame.centre.y())}},
                {"radius", fine(frame.radius)},
                {"exposure", fine(exposure)},
-               {"white_balance", {fine(frame.gain.x() / frame.gain.y()), 1.0, fine(frame.gain.z() / frame.gain.y())}},
+               {"white_balance",
+                {fine(frame.gain.x() / frame.gain.y()), 1.0, fine(frame.gain.z() / frame.gain.y())}},
                {"sharpness", fine(frame.sharpness)},
                {"confidence", fine(frame.confidence)},
                {"used", frame.dropped.empty()}};
@@ -69,7 +70,8 @@ std::string report_json(const CaptureResult& result) {
     json["symmetry"]["psnr_db"][std::to_string(similarity.turns)] = rounded(similarity.psnr, 0.01);
   }
   json["mask"] = {{"share", fine(result.mask.share)}};
-  json["table"] = {{"size", result.table.size}, {"slices", result.table.slices}, {"measured", fine(result.seen_share)}};
+  json["table"] = {
+      {"size", result.table.size}, {"slices", result.table.slices}, {"measured", fine(result.seen_share)}};
   json["warnings"] = result.warnings;
   return json.dump(2) + "\n";
 }

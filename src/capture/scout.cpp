@@ -42,7 +42,8 @@ GreyPicture grey_picture(const Frame& frame, int factor, const GreyRegion& regio
   const float scale = 1.0f / static_cast<float>(factor * factor);
   for (int y = std::max(0, region.top); y < std::min(picture.height, region.bottom); ++y) {
     const int first = std::max(0, region.left);
-    std::size_t i = static_cast<std::size_t>(y) * static_cast<std::size_t>(picture.width) + static_cast<std::size_t>(first);
+    std::size_t i = static_cast<std::size_t>(y) * static_cast<std::size_t>(picture.width) +
+                    static_cast<std::size_t>(first);
     for (int x = first; x < std::min(picture.width, region.right); ++x) {
       float sum = 0;
       for (int v = 0; v < factor; ++v) {
@@ -60,7 +61,8 @@ namespace {
 /// Every 7th pixel of every 7th row: enough for medians over a picture.
 constexpr int kGrid = 7;
 
-/// Gain of each frame's codes against the mean, as the median ratio over a grid, which the background carries.
+/// Gain of each frame's codes against the mean, as the median ratio over a grid, which the background
+/// carries.
 std::vector<float> gains(std::span<const GreyPicture> frames, const std::vector<float>& mean) {
   std::vector<float> result(frames.size(), 1);
   parallel_for(static_cast<int>(frames.size()), [&](int f) {
@@ -112,7 +114,6 @@ void measure_activity(std::span<const GreyPicture> frames, Scouting& scouting) {
   }
 }
 
-
 struct Circle {
   Vec2 centre{0, 0};
   double radius = 0;
@@ -129,21 +130,24 @@ Circle circle_through(const Vec2& a, const Vec2& b, const Vec2& c) {
   return {a + offset / cross, (offset / cross).norm(), 0};
 }
 
-/// The circle on which most outline points lie: parts of an outline are hidden by a stand or joined to a moving shadow,
-/// so every circle through three points 1/4 to 1/2 of the way round stands for election.
+/// The circle on which most outline points lie: parts of an outline are hidden by a stand or joined to a
+/// moving shadow, so every circle through three points 1/4 to 1/2 of the way round stands for election.
 Circle vote_circle(const std::vector<Vec2>& outline) {
   Circle best;
   const std::size_t n = outline.size();
   const auto supporters = [&](const Circle& circle) {
     const double tolerance = std::max(1.5, 0.012 * circle.radius);
-    return static_cast<double>(std::ranges::count_if(outline, [&](const Vec2& p) {
-             return std::abs((p - circle.centre).norm() - circle.radius) < tolerance;
-           })) /
+    return static_cast<double>(std::ranges::count_if(outline,
+                                                     [&](const Vec2& p) {
+                                                       return std::abs((p - circle.centre).norm() -
+                                                                       circle.radius) < tolerance;
+                                                     })) /
            static_cast<double>(n);
   };
   for (std::size_t start = 0; start < n; start += std::max<std::size_t>(1, n / 60)) {
     for (std::size_t step = n / 8; step <= n / 3; step += std::max<std::size_t>(1, n / 24)) {
-      Circle circle = circle_through(outline[start], outline[(start + step) % n], outline[(start + 2 * step) % n]);
+      Circle circle =
+          circle_through(outline[start], outline[(start + step) % n], outline[(start + 2 * step) % n]);
       if (circle.radius <= 0) continue;
       circle.support = supporters(circle);
       if (circle.support > best.support) best = circle;
@@ -252,11 +256,11 @@ void check_camera(std::span<const GreyPicture> frames, const Circle& sphere, Sco
     const double moved = background_motion(frames[0], frames[f], sphere);
     s.moved = std::max(s.moved, moved);
     if (moved > 1.5) {
-      throw Error(
-          fmt::format("the camera moved by about {:.1f} pixels between {:.0f} % and {:.0f} % of the sequence; fix camera "
-                      "and stand and shoot again",
-                      moved * 1.0, 100.0 * static_cast<double>(last_still) / static_cast<double>(n - 1),
-                      100.0 * static_cast<double>(f) / static_cast<double>(n - 1)));
+      throw Error(fmt::format(
+          "the camera moved by about {:.1f} pixels between {:.0f} % and {:.0f} % of the sequence; fix camera "
+          "and stand and shoot again",
+          moved * 1.0, 100.0 * static_cast<double>(last_still) / static_cast<double>(n - 1),
+          100.0 * static_cast<double>(f) / static_cast<double>(n - 1)));
     }
     last_still = f;
   }
@@ -275,8 +279,8 @@ Scouting find_sphere(std::span<const GreyPicture> frames) {
   std::ranges::nth_element(sorted, low);
   s.noise = std::max(0.3, 1.25 * static_cast<double>(*low));
 
-  // A weak turning surface first drowns under a high threshold, a strong one merges with its own moving shadow under a
-  // low one: the threshold with the best circle wins.
+  // A weak turning surface first drowns under a high threshold, a strong one merges with its own moving
+  // shadow under a low one: the threshold with the best circle wins.
   Blob best;
   std::vector<Blob> others;
   for (const double times : {4.0, 7.0, 12.0}) {
@@ -293,25 +297,28 @@ Scouting find_sphere(std::span<const GreyPicture> frames) {
   if (best.area <= 0) {
     check_camera(frames, {}, s);
     throw Error(
-        "no sphere found: nothing round changes between the frames. The sphere has to turn while camera, lamps and "
+        "no sphere found: nothing round changes between the frames. The sphere has to turn while camera, "
+        "lamps and "
         "background stand still, and fill at least a twentieth of the picture's height");
   }
   check_camera(frames, best.circle, s);
   for (const Blob& other : others) {
-    const bool apart = (other.circle.centre - best.circle.centre).norm() > other.circle.radius + 0.8 * best.circle.radius;
+    const bool apart =
+        (other.circle.centre - best.circle.centre).norm() > other.circle.radius + 0.8 * best.circle.radius;
     if (apart && other.circle.support > 0.5 && other.filled > 0.5 && other.area > 0.1 * best.area) {
-      throw Error(fmt::format("two turning spheres found, at ({:.0f}, {:.0f}) and ({:.0f}, {:.0f}); cover or crop one",
-                              best.circle.centre.x(), best.circle.centre.y(), other.circle.centre.x(),
-                              other.circle.centre.y()));
+      throw Error(fmt::format(
+          "two turning spheres found, at ({:.0f}, {:.0f}) and ({:.0f}, {:.0f}); cover or crop one",
+          best.circle.centre.x(), best.circle.centre.y(), other.circle.centre.x(), other.circle.centre.y()));
     }
   }
   const Vec2& c = best.circle.centre;
   const double r = best.circle.radius;
   if (c.x() - r < -1 || c.y() - r < -1 || c.x() + r > width + 1 || c.y() + r > height + 1) {
-    throw Error(fmt::format(
-        "the sphere (centre ({:.0f}, {:.0f}), radius {:.0f} of a picture of {} x {}) is cut by the picture's edge; the "
-        "whole outline has to be visible",
-        c.x(), c.y(), r, width, height));
+    throw Error(
+        fmt::format("the sphere (centre ({:.0f}, {:.0f}), radius {:.0f} of a picture of {} x {}) is cut by "
+                    "the picture's edge; the "
+                    "whole outline has to be visible",
+                    c.x(), c.y(), r, width, height));
   }
   s.centre = c;
   s.radius = r;

@@ -10,8 +10,8 @@
 
 namespace sateen {
 
-/// A grey picture for finding things: 255 sqrt(light), so that sensor noise is about the same everywhere, scaled down by
-/// a whole factor so that its long side is at most about 1280 pixels.
+/// A grey picture for finding things: 255 sqrt(light), so that sensor noise is about the same everywhere,
+/// scaled down by a whole factor so that its long side is at most about 1280 pixels.
 struct GreyPicture {
   int width = 0;
   int height = 0;
@@ -38,21 +38,22 @@ struct GreyRegion {
 GreyPicture grey_picture(const Frame& frame, int factor);
 GreyPicture grey_picture(const Frame& frame, int factor, const GreyRegion& region);
 
-/// What a few frames of a capture, spread over the turn, say of where the turning sphere is. In pixels of GreyPicture.
+/// What a few frames of a capture, spread over the turn, say of where the turning sphere is. In pixels of
+/// GreyPicture.
 struct Scouting {
   Vec2 centre{0, 0};
   double radius = 0;
-  std::vector<float> gain;             ///< per frame, of the codes, relative to the median frame
-  std::vector<float> activity;         ///< per pixel: standard deviation over time, in codes, gains removed
-  std::vector<float> mean;             ///< per pixel, codes
-  double noise = 0;                    ///< codes, of a pixel that stands still
-  double moved = 0;                    ///< pixels the background moved between the first and last frames
+  std::vector<float> gain;      ///< per frame, of the codes, relative to the median frame
+  std::vector<float> activity;  ///< per pixel: standard deviation over time, in codes, gains removed
+  std::vector<float> mean;      ///< per pixel, codes
+  double noise = 0;             ///< codes, of a pixel that stands still
+  double moved = 0;             ///< pixels the background moved between the first and last frames
 };
 
-/// Finds the sphere: the background stands still, its surface turns. Robust against dark or plain parts of the sphere, small
-/// moving things beside it, exposure drift; to about a pixel (the outline fit refines it).
-/// Throws Error in plain words when nothing round turns, two things do, the sphere is cut by the picture's edge, or the
-/// camera moved.
+/// Finds the sphere: the background stands still, its surface turns. Robust against dark or plain parts of
+/// the sphere, small moving things beside it, exposure drift; to about a pixel (the outline fit refines it).
+/// Throws Error in plain words when nothing round turns, two things do, the sphere is cut by the picture's
+/// edge, or the camera moved.
 Scouting find_sphere(std::span<const GreyPicture> frames);
 
 }  // namespace sateen

@@ -47,8 +47,9 @@ SeenPoint point_of_disc(const SphereView& sphere, const Vec2& disc, TableFrame f
     point.visible = disc.squaredNorm() < 1 && point.normal.dot(point.towards_eye) > 0;
     return point;
   }
-  // In the triangle eye, centre, point the law of sines ties the angle at the point, between normal and eye, to the
-  // angle at the eye: sin(ray angle) = sin(normal angle) / distance. So the disc is the picture seen in sines.
+  // In the triangle eye, centre, point the law of sines ties the angle at the point, between normal and eye,
+  // to the angle at the eye: sin(ray angle) = sin(normal angle) / distance. So the disc is the picture seen
+  // in sines.
   const double distance = sphere.distance();
   const double sine = std::min(1.0, disc.norm());
   const double ray_angle = std::asin(sine / distance);
@@ -56,10 +57,10 @@ SeenPoint point_of_disc(const SphereView& sphere, const Vec2& disc, TableFrame f
   const Vec3 centre_to_eye = -sphere.centre / distance;
   const Mat3 to_view = eye_frame(centre_to_eye).transpose();
   // The eye frames of neighbouring points differ by a parallel transport whose turn about the view ray is the
-  // solid angle of the triangle (z, ray, centre ray): second order, so one correction is exact in practice.
+  // solid angle of the triangle (z, ray, centre ray): second order, so a few corrections are exact.
   const Vec2 wanted = sine > 0 ? Vec2(disc / disc.norm()) : Vec2(1, 0);
   Vec2 azimuth = wanted;
-  for (int i = 0; i < 2; ++i) {
+  for (int i = 0; i < 6; ++i) {
     const Vec3 across = to_view * Vec3(azimuth.x(), azimuth.y(), 0);
     point.normal = std::cos(normal_angle) * centre_to_eye + std::sin(normal_angle) * across;
     point.towards_eye = std::cos(ray_angle) * centre_to_eye - std::sin(ray_angle) * across;
@@ -68,6 +69,7 @@ SeenPoint point_of_disc(const SphereView& sphere, const Vec2& disc, TableFrame f
     const Vec2 got_azimuth = got.head<2>().normalized();
     const double c = got_azimuth.dot(wanted);
     const double s = got_azimuth.x() * wanted.y() - got_azimuth.y() * wanted.x();
+    if (std::abs(s) < 1e-9) break;
     azimuth = Vec2(c * azimuth.x() - s * azimuth.y(), s * azimuth.x() + c * azimuth.y());
   }
   point.visible = disc.squaredNorm() < 1;

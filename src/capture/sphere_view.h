@@ -8,18 +8,21 @@ namespace sateen {
 
 /// In which frame a table's normals are expressed when the camera sees the sphere in perspective.
 enum class TableFrame {
-  eye,   ///< z points at the eye from each surface point: what the lookups of this library use; the whole disc is seen
+  eye,  ///< z points at the eye from each surface point: what the lookups of this library use; the whole disc
+        ///< is seen
   view,  ///< z is the camera's optical axis everywhere; normals near the rim are hidden from a near camera
 };
 
-/// A sphere of radius 1 (lengths in a picture have no scale) as one camera sees it. View space, eye at the origin.
+/// A sphere of radius 1 (lengths in a picture have no scale) as one camera sees it. View space, eye at the
+/// origin.
 struct SphereView {
   Vec3 centre{0, 0, -10};
 
   double distance() const { return centre.norm(); }
   /// Half the opening angle of the cone that touches the sphere.
   double half_angle() const;
-  /// Where the camera puts the sphere's centre. The outline is an ellipse whose own centre lies a little further out.
+  /// Where the camera puts the sphere's centre. The outline is an ellipse whose own centre lies a little
+  /// further out.
   Vec2 centre_pixel(const Camera& camera) const { return camera.project(centre); }
   /// Radius of the outline in pixels, were the sphere in the middle of the picture: f tan(half_angle).
   double radius_pixel(const Camera& camera) const;
@@ -35,8 +38,8 @@ bool normal_at_pixel(const Camera& camera, const SphereView& sphere, const Vec2&
 
 /// A surface point for a disc point of a table. The point is `sphere.centre + normal`.
 struct SeenPoint {
-  Vec3 normal;         ///< view space
-  Vec3 towards_eye;    ///< view space, unit
+  Vec3 normal;       ///< view space
+  Vec3 towards_eye;  ///< view space, unit
   bool visible = false;
 };
 SeenPoint point_of_disc(const SphereView& sphere, const Vec2& disc, TableFrame frame);

@@ -13,8 +13,8 @@
 namespace sateen {
 namespace {
 
-constexpr double kNear = 0.06;   // radians: neighbours closer than this may still show the blemish itself
-constexpr double kFar = 0.40;    // radians: beyond, the shading has changed
+constexpr double kNear = 0.06;      // radians: neighbours closer than this may still show the blemish itself
+constexpr double kFar = 0.40;       // radians: beyond, the shading has changed
 constexpr double kSmallest = 0.12;  // log light: below this it is the material's own unevenness
 
 double median(std::vector<float>& values) {
@@ -40,14 +40,22 @@ float dark_floor(const RectifiedStack& stack) {
 
 constexpr std::int8_t kUnknown = -128;
 
-/// How much each rectified sample differs from the median of the angles around it, natural log, 100 a unit, clamped to
-/// +-1.2; kUnknown in the dark and where too few neighbours are seen. Index (frame * texels + texel) * 3 + channel.
+/// Some fifty frames agree as well as all of them.
+std::size_t frame_step(std::size_t frames) {
+  return std::max<std::size_t>(1, frames / 48);
+}
+
+/// How much each rectified sample differs from the median of the angles around it, natural log, 100 a unit,
+/// clamped to
+/// +-1.2; kUnknown in the dark and where too few neighbours are seen. Index (frame * texels + texel) * 3 +
+/// channel.
 std::vector<std::int8_t> deviations(const RectifiedStack& stack, const SurfaceMask& already) {
   const std::size_t frames = stack.frames.size();
   const std::size_t texels = stack.points.size();
   const AxisFrame axes(stack.axis);
   const float dark = dark_floor(stack);
   std::vector<std::int8_t> result(frames * texels * 3, kUnknown);
+  const std::size_t step = frame_step(frames);
   // The neighbours of a frame along the turn are the same for all texels.
   std::vector<std::vector<std::size_t>> neighbours(frames);
   for (std::size_t f = 0; f < frames; ++f) {
@@ -73,13 +81,14 @@ std::vector<std::int8_t> deviations(const RectifiedStack& stack, const SurfaceMa
       for (std::size_t f = 0; f < frames; ++f) {
         const RectifiedFrame& frame = stack.frames[f];
         usable[f] = frame.weight[i] > 127 ? 1 : 0;
-        if (usable[f] != 0 && already.excludes(body_point(axes, stack.points[i].normal, stack.angles[f]))) usable[f] = 2;
+        if (usable[f] != 0 && already.excludes(body_point(axes, stack.points[i].normal, stack.angles[f])))
+          usable[f] = 2;
         for (std::size_t c = 0; c < 3; ++c) {
           light[f][c] = std::log(std::max(0.0f, static_cast<float>(frame.rgb[i * 3 + c])) + dark);
         }
       }
       const float darkest = std::log(3 * dark);
-      for (std::size_t f = 0; f < frames; ++f) {
+      for (std::size_t f = 0; f < frames; f += step) {
         if (usable[f] == 0) continue;
         for (std::size_t c = 0; c < 3; ++c) {
           around.clear();
@@ -98,13 +107,14 @@ std::vector<std::int8_t> deviations(const RectifiedStack& stack, const SurfaceMa
   return result;
 }
 
-/// The deviation that nearly all frames agree on at each body pixel, in the channel where it is strongest; 0 where nothing
-/// is known. A highlight crosses a place of the body in some frames, a blemish is there in all.
+/// The deviation that nearly all frames agree on at each body pixel, in the channel where it is strongest; 0
+/// where nothing is known. A highlight crosses a place of the body in some frames, a blemish is there in all.
 std::vector<float> body_deviation(const RectifiedStack& stack, const SurfaceMask& already, int size) {
   const std::size_t frames = stack.frames.size();
   const std::size_t texels = stack.points.size();
   const std::vector<std::int8_t> deviation = deviations(stack, already);
-  // Where on the table a body direction is seen as it turns: through the map from normals across the axis to texels.
+  // Where on the table a body direction is seen as it turns: through the map from normals across the axis to
+  // texels.
   const AxisFrame axes(stack.axis);
   std::vector<std::int32_t> texel_of(static_cast<std::size_t>(size) * static_cast<std::size_t>(size) * 4, -1);
   const int fine = 2 * size;
@@ -122,7 +132,8 @@ std::vector<float> body_deviation(const RectifiedStack& stack, const SurfaceMask
                   Vec2(x + 0.5, y + 0.5))
               .squaredNorm();
         };
-        if (slot < 0 || distance(static_cast<std::int32_t>(i)) < distance(slot)) slot = static_cast<std::int32_t>(i);
+        if (slot < 0 || distance(static_cast<std::int32_t>(i)) < distance(slot))
+          slot = static_cast<std::int32_t>(i);
       }
     }
   }
@@ -133,7 +144,7 @@ std::vector<float> body_deviation(const RectifiedStack& stack, const SurfaceMask
       const Vec2 disc = disc_of_pixel(x, y, size);
       if (disc.norm() >= 0.995) continue;
       for (auto& values : seen) values.clear();
-      for (std::size_t f = 0; f < frames; ++f) {
+      for (std::size_t f = 0; f < frames; f += frame_step(frames)) {
         const double c = std::cos(stack.angles[f]);
         const double s = std::sin(stack.angles[f]);
         const Vec2 p = pixel_of_disc(Vec2(c * disc.x() - s * disc.y(), s * disc.x() + c * disc.y()), fine);
@@ -141,13 +152,14 @@ std::vector<float> body_deviation(const RectifiedStack& stack, const SurfaceMask
                                                  std::min(fine - 1, static_cast<int>(p.x())));
         if (texel_of[at] < 0) continue;
         for (std::size_t channel = 0; channel < 3; ++channel) {
-          const std::int8_t d = deviation[(f * texels + static_cast<std::size_t>(texel_of[at])) * 3 + channel];
+          const std::int8_t d =
+              deviation[(f * texels + static_cast<std::size_t>(texel_of[at])) * 3 + channel];
           if (d != kUnknown) seen[channel].push_back(static_cast<float>(d) / 100);
         }
       }
       float strongest = 0;
       for (auto& values : seen) {
-        if (values.size() * 4 < frames || values.size() < 6) continue;
+        if (values.size() * 4 * frame_step(frames) < frames || values.size() < 6) continue;
         std::ranges::sort(values);
         const float middle = values[values.size() / 2];
         // The quantile on the side of 0 that a quarter of the frames may still fall short of.
@@ -210,7 +222,9 @@ SurfaceMask find_blemishes(const RectifiedStack& stack, const SurfaceMask& alrea
   for (int y = 0; y < mask.size; ++y) {
     for (int x = 0; x < mask.size; ++x) {
       weak.at<std::uint8_t>(y, x) =
-          static_cast<double>(std::abs(mask.deviation[static_cast<std::size_t>(y * mask.size + x)])) > low ? 1 : 0;
+          static_cast<double>(std::abs(mask.deviation[static_cast<std::size_t>(y * mask.size + x)])) > low
+              ? 1
+              : 0;
     }
   }
   cv::Mat labels;
@@ -231,14 +245,15 @@ SurfaceMask find_blemishes(const RectifiedStack& stack, const SurfaceMask& alrea
     }
   }
   for (std::size_t i = 0; i < mask.masked.size(); ++i) {
-    mask.masked[i] = chosen.at<std::uint8_t>(static_cast<int>(i) / mask.size, static_cast<int>(i) % mask.size);
+    mask.masked[i] =
+        chosen.at<std::uint8_t>(static_cast<int>(i) / mask.size, static_cast<int>(i) % mask.size);
   }
   finish(mask);
   return mask;
 }
 
-SurfaceMask mask_from_painting(const Image& painting, const Camera& camera, const SphereView& sphere, const Vec3& axis,
-                               double angle, int size) {
+SurfaceMask mask_from_painting(const Image& painting, const Camera& camera, const SphereView& sphere,
+                               const Vec3& axis, double angle, int size) {
   SurfaceMask mask;
   mask.size = size;
   mask.masked.assign(static_cast<std::size_t>(size) * static_cast<std::size_t>(size), 0);
@@ -276,7 +291,8 @@ SurfaceMask united(const SurfaceMask& a, const SurfaceMask& b) {
 }
 
 bool mask_direction(const SurfaceMask& mask, double& direction) {
-  // The pole's direction is that of the masked area's axis: each pixel votes with its direction from the middle.
+  // The pole's direction is that of the masked area's axis: each pixel votes with its direction from the
+  // middle.
   Vec2 sum(0, 0);
   double count = 0;
   for (int y = 0; y < mask.size; ++y) {

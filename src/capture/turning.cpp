@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "sateen/capture/turning.h"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <complex>
 
-#include <Eigen/Cholesky>
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 
@@ -60,8 +61,8 @@ std::vector<cv::Mat> moving_detail(std::span<const SurfacePatch> patches) {
   return images;
 }
 
-/// Rows: rings from the middle outwards, each scaled by the square root of its length, zero mean; columns: angles
-/// counter-clockwise.
+/// Rows: rings from the middle outwards, each scaled by the square root of its length, zero mean; columns:
+/// angles counter-clockwise.
 cv::Mat polar(const cv::Mat& image) {
   cv::Mat result(kRings, kBins, CV_32F);
   for (int r = 0; r < kRings; ++r) {
@@ -120,7 +121,8 @@ void add_turned_back(cv::Mat& sum, const cv::Mat& spectrum, double angle, double
   std::vector<std::complex<float>> phase(kBins);
   for (int f = 0; f < kBins; ++f) {
     const int frequency = f <= kBins / 2 ? f : f - kBins;
-    phase[static_cast<std::size_t>(f)] = std::polar(static_cast<float>(sign), static_cast<float>(frequency * angle));
+    phase[static_cast<std::size_t>(f)] =
+        std::polar(static_cast<float>(sign), static_cast<float>(frequency * angle));
   }
   for (int r = 0; r < kRings; ++r) {
     const auto* in = spectrum.ptr<std::complex<float>>(r);
@@ -129,8 +131,8 @@ void add_turned_back(cv::Mat& sum, const cv::Mat& spectrum, double angle, double
   }
 }
 
-/// Angles about the disc's middle: each frame against the surface the frames before it have built, then twice more
-/// against all others.
+/// Angles about the disc's middle: each frame against the surface the frames before it have built, then twice
+/// more against all others.
 void register_about_middle(const std::vector<cv::Mat>& images, Turning& turning) {
   const std::size_t n = images.size();
   std::vector<cv::Mat> spectra(n);
@@ -159,7 +161,8 @@ void register_about_middle(const std::vector<cv::Mat>& images, Turning& turning)
       add_turned_back(surface, spectra[i], peaks[i].angle, 1);
     }
   }
-  // Correlation of unrelated surfaces: the peak of kBins tries among about that many times kRings / 4 free values.
+  // Correlation of unrelated surfaces: the peak of kBins tries among about that many times kRings / 4 free
+  // values.
   turning.confidence_floor = 3.3 / std::sqrt(kBins / 3.0 * kRings / 2.0);
 }
 
@@ -173,29 +176,58 @@ struct Surface {
   cv::Mat weight;
 };
 
-/// Calls body(texel x, y, patch coordinates) for each texel of the surface (the disc at angle 0) that a frame turned by
-/// `rotation` shows inside its own disc.
-template <class Body>
-void for_shown(int size, const Mat3& rotation, Body body) {
-  for (int y = 0; y < size; ++y) {
-    for (int x = 0; x < size; ++x) {
-      const Vec2 disc = kPatchReach * disc_of_pixel(x, y, size);
-      const double r2 = disc.squaredNorm();
-      if (r2 > kPatchReach * kPatchReach * 0.96) continue;
-      const Vec3 normal(disc.x(), disc.y(), std::sqrt(1 - r2));
-      const Vec3 seen = rotation * normal;
-      const Vec2 there = seen.head<2>() / kPatchReach;
-      if (there.squaredNorm() > 0.96 || seen.z() <= 0) continue;
-      body(x, y, normal, pixel_of_disc(there, size));
+/// The pixels of a patch's disc and the normals they show, made once.
+struct DiscNormals {
+  struct Entry {
+    int index;
+    Vec3f normal;
+  };
+  int size = 0;
+  std::vector<Entry> entries;
+
+  explicit DiscNormals(int size_) : size(size_) {
+    for (int y = 0; y < size; ++y) {
+      for (int x = 0; x < size; ++x) {
+        const Vec2 disc = kPatchReach * disc_of_pixel(x, y, size);
+        const double r2 = disc.squaredNorm();
+        if (r2 > kPatchReach * kPatchReach * 0.96) continue;
+        entries.push_back({y * size + x, Vec3(disc.x(), disc.y(), std::sqrt(1 - r2)).cast<float>()});
+      }
     }
+  }
+};
+
+/// Calls body(pixel of the surface (the disc at angle 0), its normal, the frame's value there) for every
+/// pixel that a frame turned by `rotation` shows inside its own disc.
+template <class Body>
+void for_shown(const DiscNormals& disc, const cv::Mat& image, const Mat3& rotation, Body body) {
+  const Eigen::Matrix3f turned = rotation.cast<float>();
+  const auto scale = static_cast<float>(disc.size / (2 * kPatchReach));
+  const float middle = 0.5f * static_cast<float>(disc.size) - 0.5f;
+  constexpr auto kReach = static_cast<float>(kPatchReach * kPatchReach * 0.96);
+  const float* pixels = image.ptr<float>(0);
+  for (const DiscNormals::Entry& entry : disc.entries) {
+    const Vec3f seen = turned * entry.normal;
+    if (seen.head<2>().squaredNorm() > kReach || seen.z() <= 0) continue;
+    const float x = middle + seen.x() * scale;
+    const float y = middle - seen.y() * scale;
+    const int x0 = static_cast<int>(x);
+    const int y0 = static_cast<int>(y);
+    const float fx = x - static_cast<float>(x0);
+    const float fy = y - static_cast<float>(y0);
+    const float* p = pixels + y0 * disc.size + x0;
+    const float top = p[0] + fx * (p[1] - p[0]);
+    const float bottom = p[disc.size] + fx * (p[disc.size + 1] - p[disc.size]);
+    body(entry.index, entry.normal, top + fy * (bottom - top));
   }
 }
 
-/// One round of Lucas-Kanade: the surface from all frames, then each frame's rotation vector against it, then what of it
-/// is the axis.
+/// One round of Lucas-Kanade: the surface from all frames, then each frame's rotation vector against it, then
+/// what of it is the axis.
 double refine(const std::vector<cv::Mat>& images, Vec3& axis, std::vector<double>& angles, bool refine_angles,
-              std::vector<double>& confidence) {
+              std::vector<double>& confidence, std::vector<double>& strength) {
   const int size = images[0].cols;
+  const DiscNormals disc(size);
   const std::size_t n = images.size();
   constexpr int kSlots = 4;  // partial sums, the same whatever the number of threads
   std::vector<Surface> slots(kSlots);
@@ -204,9 +236,11 @@ double refine(const std::vector<cv::Mat>& images, Vec3& axis, std::vector<double
     surface.sum = cv::Mat::zeros(size, size, CV_32F);
     surface.weight = cv::Mat::zeros(size, size, CV_32F);
     for (std::size_t f = static_cast<std::size_t>(slot); f < n; f += kSlots) {
-      for_shown(size, turn(axis, angles[f]), [&](int x, int y, const Vec3&, const Vec2& at) {
-        surface.sum.at<float>(y, x) += sample(images[f], at.x(), at.y());
-        surface.weight.at<float>(y, x) += 1;
+      float* sum = surface.sum.ptr<float>(0);
+      float* weight = surface.weight.ptr<float>(0);
+      for_shown(disc, images[f], turn(axis, angles[f]), [&](int at, const Vec3f&, float seen) {
+        sum[at] += seen;
+        weight[at] += 1;
       });
     }
   });
@@ -221,36 +255,47 @@ double refine(const std::vector<cv::Mat>& images, Vec3& axis, std::vector<double
   cv::Sobel(surface, gy, CV_32F, 0, 1, 3, -per_disc / 8);
 
   std::vector<Vec3> rotation(n, Vec3::Zero());
-  std::vector<Mat3> information(n);
   parallel_for(static_cast<int>(n), [&](int i) {
     const auto f = static_cast<std::size_t>(i);
-    Mat3 normal_matrix = Mat3::Identity() * 1e-9;
-    Vec3 right = Vec3::Zero();
-    double product = 0;
-    double power_frame = 0;
-    double power_surface = 0;
-    for_shown(size, turn(axis, angles[f]), [&](int x, int y, const Vec3& normal, const Vec2& at) {
-      const double dx = static_cast<double>(gx.at<float>(y, x));
-      const double dy = static_cast<double>(gy.at<float>(y, x));
-      const double expected = static_cast<double>(surface.at<float>(y, x));
-      const double seen = static_cast<double>(sample(images[f], at.x(), at.y()));
+    // Sums of the six different entries of the normal matrix, the right side, and the correlation's parts.
+    std::array<double, 12> sums{};
+    const float* along_x = gx.ptr<float>(0);
+    const float* along_y = gy.ptr<float>(0);
+    const float* common = surface.ptr<float>(0);
+    for_shown(disc, images[f], turn(axis, angles[f]), [&](int at, const Vec3f& normal, float seen) {
+      const float dx = along_x[at];
+      const float dy = along_y[at];
+      const float residual = seen - common[at];
+      const float w = 1 / (1 + residual * residual * 100);
       // The frame shows what lies at the surface point turned back by a small body rotation w: T(n - w x n).
-      const Vec3 row = -Vec3(-normal.z() * dy, normal.z() * dx, normal.x() * dy - normal.y() * dx);
-      const double residual = seen - expected;
-      const double w = 1 / (1 + residual * residual / 0.01);
-      normal_matrix += w * row * row.transpose();
-      right += w * row * residual;
-      product += seen * expected;
-      power_frame += seen * seen;
-      power_surface += expected * expected;
+      const float a = normal.z() * dy;
+      const float b = -normal.z() * dx;
+      const float c = normal.y() * dx - normal.x() * dy;
+      sums[0] += static_cast<double>(w * a * a);
+      sums[1] += static_cast<double>(w * a * b);
+      sums[2] += static_cast<double>(w * a * c);
+      sums[3] += static_cast<double>(w * b * b);
+      sums[4] += static_cast<double>(w * b * c);
+      sums[5] += static_cast<double>(w * c * c);
+      sums[6] += static_cast<double>(w * a * residual);
+      sums[7] += static_cast<double>(w * b * residual);
+      sums[8] += static_cast<double>(w * c * residual);
+      sums[9] += static_cast<double>(seen * common[at]);
+      sums[10] += static_cast<double>(seen * seen);
+      sums[11] += static_cast<double>(common[at] * common[at]);
     });
+    Mat3 normal_matrix;
+    normal_matrix << sums[0], sums[1], sums[2], sums[1], sums[3], sums[4], sums[2], sums[4], sums[5];
+    normal_matrix += Mat3::Identity() * 1e-9;
+    const Vec3 right(sums[6], sums[7], sums[8]);
     rotation[f] = normal_matrix.ldlt().solve(right);
-    information[f] = normal_matrix;
-    confidence[f] = product / std::sqrt(std::max(1e-12, power_frame * power_surface));
+    strength[f] = sums[9] / std::max(1e-12, sums[11]);
+    confidence[f] = sums[9] / std::sqrt(std::max(1e-12, sums[10] * sums[11]));
   });
 
-  // Body rotation w of frame f, expressed in the camera: R w. A wrong axis a + d explains R(a + d) = R(a) exp(w) with
-  // w = (R^-1 - 1) (d x a) + c plus the angle's own error along the axis; c is the surface's free choice of pose.
+  // Body rotation w of frame f, expressed in the camera: R w. A wrong axis a + d explains R(a + d) = R(a)
+  // exp(w) with w = (R^-1 - 1) (d x a) + c plus the angle's own error along the axis; c is the surface's free
+  // choice of pose.
   Vec3 e1;
   Vec3 e2;
   frame_around(axis, e1, e2);
@@ -263,7 +308,6 @@ double refine(const std::vector<cv::Mat>& images, Vec3& axis, std::vector<double
     Eigen::Matrix<double, 3, 4> rows;
     rows << back * axis.cross(e1), back * axis.cross(e2), e1, e2;
     const Eigen::Matrix<double, 2, 4> across = basis.transpose() * rows;
-    // Information of the two components across the axis, the third marginalised out.
     normal_matrix += across.transpose() * across;
     right += across.transpose() * (basis.transpose() * rotation[f]);
   }
@@ -282,8 +326,10 @@ double refine(const std::vector<cv::Mat>& images, Vec3& axis, std::vector<double
 
 void refine_all(const std::vector<cv::Mat>& images, const Mat3& axes, bool refine_angles, Turning& turning) {
   Vec3 axis = axes * turning.axis;
-  for (int round = 0; round < 4; ++round) {
-    turning.step_error = refine(images, axis, turning.angles, refine_angles, turning.confidence);
+  turning.strength.assign(images.size(), 0);
+  for (int round = 0; round < 3; ++round) {
+    turning.step_error =
+        refine(images, axis, turning.angles, refine_angles, turning.confidence, turning.strength);
   }
   turning.axis = axes.transpose() * axis;
   const double first = turning.angles[0];
@@ -292,8 +338,8 @@ void refine_all(const std::vector<cv::Mat>& images, const Mat3& axes, bool refin
 
 }  // namespace
 
-SurfacePatch surface_patch(const GreyPicture& frame, const Camera& camera, const SphereView& sphere, const Mat3& axes,
-                           int size) {
+SurfacePatch surface_patch(const GreyPicture& frame, const Camera& camera, const SphereView& sphere,
+                           const Mat3& axes, int size) {
   cv::Mat light = cv::Mat::zeros(size, size, CV_32F);
   cv::Mat inside = cv::Mat::zeros(size, size, CV_32F);
   const Mat3 to_view = axes.transpose();
@@ -311,7 +357,8 @@ SurfacePatch surface_patch(const GreyPicture& frame, const Camera& camera, const
       const auto fx = static_cast<float>(cx - x0);
       const auto fy = static_cast<float>(cy - y0);
       const float top = light_of(frame.at(x0, y0)) * (1 - fx) + light_of(frame.at(x0 + 1, y0)) * fx;
-      const float bottom = light_of(frame.at(x0, y0 + 1)) * (1 - fx) + light_of(frame.at(x0 + 1, y0 + 1)) * fx;
+      const float bottom =
+          light_of(frame.at(x0, y0 + 1)) * (1 - fx) + light_of(frame.at(x0 + 1, y0 + 1)) * fx;
       light.at<float>(y, x) = top + fy * (bottom - top);
       inside.at<float>(y, x) = 1;
     }
@@ -333,7 +380,8 @@ SurfacePatch surface_patch(const GreyPicture& frame, const Camera& camera, const
       // In the dark the detail is noise: the floor keeps it small.
       const float detail = (light.at<float>(y, x) - mean) / (mean + 0.01f);
       const float bounded = std::clamp(detail, -1.0f, 1.0f);
-      patch.detail[static_cast<std::size_t>(y * size + x)] = static_cast<std::int8_t>(std::lround(bounded * 127));
+      patch.detail[static_cast<std::size_t>(y * size + x)] =
+          static_cast<std::int8_t>(std::lround(bounded * 127));
       squares += static_cast<double>(bounded * bounded);
       ++count;
     }

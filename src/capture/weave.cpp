@@ -11,7 +11,8 @@
 namespace sateen {
 
 bool weave_direction(const RectifiedStack& stack, double& direction) {
-  // Power of the middle's light by direction of the ripple, each frame's turned back. What stands still smears out.
+  // Power of the middle's light by direction of the ripple, each frame's turned back. What stands still
+  // smears out.
   constexpr int kBins = 180;
   std::vector<double> power(kBins, 0);
   const int size = stack.size;
@@ -22,7 +23,8 @@ bool weave_direction(const RectifiedStack& stack, double& direction) {
     for (int y = 0; y < window; ++y) {
       for (int x = 0; x < window; ++x) {
         const auto i = static_cast<std::size_t>((y + corner) * size + x + corner);
-        light.at<float>(y, x) = std::log(std::max(0.0f, static_cast<float>(stack.frames[f].rgb[i * 3 + 1])) + 1e-3f);
+        light.at<float>(y, x) =
+            std::log(std::max(0.0f, static_cast<float>(stack.frames[f].rgb[i * 3 + 1])) + 1e-3f);
       }
     }
     light -= cv::mean(light);
@@ -65,7 +67,8 @@ bool weave_direction(const RectifiedStack& stack, double& direction) {
   double sum = 0;
   double moment = 0;
   for (int d = -4; d <= 4; ++d) {
-    const double above = std::max(0.0, smooth[static_cast<std::size_t>((peak + d + kBins) % kBins)] - sorted[kBins / 2]);
+    const double above =
+        std::max(0.0, smooth[static_cast<std::size_t>((peak + d + kBins) % kBins)] - sorted[kBins / 2]);
     sum += above;
     moment += above * d;
   }

@@ -7,12 +7,13 @@
 
 #include "sateen/core/error.h"
 #include "sateen/io/file.h"
+#include "sateen/io/image.h"
 
 namespace sateen {
 namespace {
 
-/// A JPEG ends with its end-of-image marker, perhaps with padding behind it. libjpeg fills a truncated picture with
-/// grey and goes on, so it has to be seen here.
+/// A JPEG ends with its end-of-image marker, perhaps with padding behind it. libjpeg fills a truncated
+/// picture with grey and goes on, so it has to be seen here.
 bool jpeg_is_truncated(const std::vector<std::byte>& bytes) {
   if (bytes.size() < 4 || bytes[0] != std::byte{0xff} || bytes[1] != std::byte{0xd8}) return false;
   const std::size_t tail = bytes.size() > 4096 ? bytes.size() - 4096 : 2;
@@ -25,6 +26,16 @@ bool jpeg_is_truncated(const std::vector<std::byte>& bytes) {
 }  // namespace
 
 Picture8 read_picture8(const std::filesystem::path& path) {
+  const std::string extension = extension_of(path);
+  Picture8 picture;
+  if (extension != ".jpg" && extension != ".jpeg") {
+    const Image image = with_channels(read_data(path), 3);
+    picture.width = image.width;
+    picture.height = image.height;
+    picture.rgb.reserve(image.data.size());
+    for (const float v : image.data) picture.rgb.push_back(static_cast<std::uint8_t>(v * 255 + 0.5f));
+    return picture;
+  }
   std::vector<std::byte> bytes = read_bytes(path);
   if (bytes.empty()) throw Error(fmt::format("{}: is empty, a picture is needed", path.string()));
   if (jpeg_is_truncated(bytes)) throw Error(fmt::format("{}: is a truncated JPEG", path.string()));
@@ -36,7 +47,6 @@ Picture8 read_picture8(const std::filesystem::path& path) {
     decoded.release();
   }
   if (decoded.empty()) throw Error(fmt::format("{}: cannot be read as a picture", path.string()));
-  Picture8 picture;
   picture.width = decoded.cols;
   picture.height = decoded.rows;
   picture.rgb.resize(static_cast<std::size_t>(decoded.cols) * static_cast<std::size_t>(decoded.rows) * 3);

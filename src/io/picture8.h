@@ -7,16 +7,16 @@
 
 namespace sateen {
 
-/// A decoded 8-bit picture as its file or the camera encodes it (usually sRGB), for work that cannot wait for floats.
-/// Interleaved RGB, row 0 on top: channel c of pixel (x, y) is rgb[(y * width + x) * 3 + c].
+/// A decoded 8-bit picture as its file or the camera encodes it (usually sRGB), for work that cannot wait for
+/// floats. Interleaved RGB, row 0 on top: channel c of pixel (x, y) is rgb[(y * width + x) * 3 + c].
 struct Picture8 {
   int width = 0;
   int height = 0;
   std::vector<std::uint8_t> rgb;
 };
 
-/// Reads a PNG, JPEG or TIFF of 8 bits a sample, turned upright by its EXIF orientation; grey is repeated, alpha is
-/// dropped. Throws Error naming the file when it is missing, truncated, or no picture.
+/// Reads a PNG, JPEG or TIFF of 8 bits a sample, turned upright by its EXIF orientation; grey is repeated,
+/// alpha is dropped. Throws Error naming the file when it is missing, truncated, or no picture.
 Picture8 read_picture8(const std::filesystem::path& path);
 
 }  // namespace sateen

@@ -48,10 +48,11 @@ VideoReader::VideoReader(const std::filesystem::path& path) : state_(std::make_u
     opened = false;
   }
   if (!opened || width() < 1 || height() < 1) {
-    throw Error(fmt::format(
-        "{}: cannot be decoded as a video; its index may be missing (an interrupted recording) or its codec unknown. "
-        "Copy it through ffmpeg into an .mp4, or extract its frames as pictures",
-        path.string()));
+    throw Error(
+        fmt::format("{}: cannot be decoded as a video; its index may be missing (an interrupted recording) "
+                    "or its codec unknown. "
+                    "Copy it through ffmpeg into an .mp4, or extract its frames as pictures",
+                    path.string()));
   }
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "sateen/capture/capture.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <gmock/gmock.h>
@@ -10,6 +11,8 @@
 #include "sateen/capture/surface_mask.h"
 #include "sateen/core/direction.h"
 #include "sateen/core/error.h"
+#include "sateen/io/file.h"
+#include "sateen/io/image.h"
 #include "support/files.h"
 
 namespace sateen {
@@ -21,6 +24,7 @@ using test::TemporaryFolder;
 /// Every nuisance at moderate strength.
 Simulation moderate() {
   Simulation s;
+  s.frames = 48;
   s.unevenness = 0.6;
   s.tilt = {1.2, -0.8};
   s.wobble = {2.5, 1.5};
@@ -48,12 +52,12 @@ CaptureResult captured(const Simulation& s, const CaptureOptions& options) {
 }
 
 struct Errors {
-  double centre = 0;   // rms, pixels
-  double radius = 0;   // pixels
-  double axis = 0;     // pixels at the sphere's surface
-  double angle = 0;    // rms, degrees, up to a constant
+  double centre = 0;  // rms, pixels
+  double radius = 0;  // pixels
+  double axis = 0;    // pixels at the sphere's surface
+  double angle = 0;   // rms, degrees, up to a constant
   double angle_worst = 0;
-  double exposure = 0; // worst, share
+  double exposure = 0;  // worst, share
 };
 
 Errors errors_of(const CaptureResult& result, const Simulation& s) {
@@ -72,7 +76,8 @@ Errors errors_of(const CaptureResult& result, const Simulation& s) {
     const double off = degrees(std::remainder(frame.turned - s.angle(static_cast<int>(i)) - offset, 2 * kPi));
     e.angle += off * off / n;
     e.angle_worst = std::max(e.angle_worst, std::abs(off));
-    e.exposure = std::max(e.exposure, std::abs(frame.gain.y() / s.gain(static_cast<int>(i)).y() / std::exp(gain) - 1));
+    e.exposure =
+        std::max(e.exposure, std::abs(frame.gain.y() / s.gain(static_cast<int>(i)).y() / std::exp(gain) - 1));
   }
   e.centre = std::sqrt(e.centre);
   e.angle = std::sqrt(e.angle);
@@ -83,7 +88,9 @@ Errors errors_of(const CaptureResult& result, const Simulation& s) {
 
 TEST(Capture, ModerateNuisances) {
   const Simulation s = moderate();
-  const CaptureResult result = captured(s, options_for(s));
+  CaptureOptions options = options_for(s);
+  options.size = 96;
+  const CaptureResult result = captured(s, options);
   const Errors e = errors_of(result, s);
   EXPECT_LT(e.centre, 0.3);
   EXPECT_LT(e.radius, 0.3);
@@ -92,9 +99,6 @@ TEST(Capture, ModerateNuisances) {
   EXPECT_LT(e.exposure, 0.004);
   EXPECT_EQ(result.table.symmetry, 2);
   EXPECT_GT(test::table_psnr(result.table, s, result.seen), 40);
-  std::printf("centre %.3f radius %.3f axis %.3f angle %.3f worst %.3f exposure %.4f psnr %.2f\n", e.centre, e.radius,
-              e.axis, e.angle, e.angle_worst, e.exposure, test::table_psnr(result.table, s, result.seen));
-  for (const auto& w : result.warnings) std::printf("W %s\n", w.c_str());
 
   // The seam, found with no hint.
   double hit = 0;
@@ -106,7 +110,8 @@ TEST(Capture, ModerateNuisances) {
     for (int x = 0; x < result.mask.size; ++x) {
       const Vec2 disc = disc_of_pixel(x, y, result.mask.size);
       if (disc.norm() > 0.95) continue;
-      const Vec3 body = disc.x() * x_axis + disc.y() * a.cross(x_axis) + std::sqrt(1 - disc.squaredNorm()) * a;
+      const Vec3 body =
+          disc.x() * x_axis + disc.y() * a.cross(x_axis) + std::sqrt(1 - disc.squaredNorm()) * a;
       const bool truth = s.in_seam(body);
       const bool found = result.mask.masks(disc);
       hit += truth && found ? 1 : 0;
@@ -114,9 +119,225 @@ TEST(Capture, ModerateNuisances) {
       wrong += !truth && found ? 1 : 0;
     }
   }
-  std::printf("recall %.3f precision %.3f\n", hit / (hit + missed), hit / (hit + wrong));
   EXPECT_GT(hit / (hit + missed), 0.95);
   EXPECT_GT(hit / (hit + wrong), 0.90);
+}
+
+/// Small and quick, for what does not depend on precision.
+Simulation small() {
+  Simulation s;
+  s.width = 400;
+  s.height = 240;
+  s.focal = 780;
+  s.centre = {215, 112};
+  s.radius = 75;
+  s.frames = 36;
+  s.noise = 1;
+  s.samples = 1;
+  return s;
+}
+
+CaptureOptions small_options(const Simulation& s) {
+  CaptureOptions options = options_for(s);
+  options.size = 48;
+  options.slices = 24;
+  return options;
+}
+
+std::string complaint(const Simulation& s) {
+  try {
+    captured(s, small_options(s));
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(Capture, ClockwiseEqualStepsAreRecognised) {
+  Simulation s = small();
+  s.clockwise = true;
+  const CaptureResult result = captured(s, small_options(s));
+  EXPECT_TRUE(result.equal_steps);
+  EXPECT_LT(result.turned, 0);
+  EXPECT_LT(errors_of(result, s).angle, 0.02);
+  EXPECT_GT(test::table_psnr(result.table, s, result.seen), 36);
+}
+
+TEST(Capture, BlurredAndRepeatedFramesAreDropped) {
+  Simulation s = small();
+  s.noise = 0.5;
+  s.shaken = {9};
+  s.repeated = {20, 21};
+  const CaptureResult result = captured(s, small_options(s));
+  EXPECT_EQ(result.frames[9].dropped, "blurred");
+  EXPECT_THAT(result.frames[20].dropped, testing::HasSubstr("same angle"));
+  EXPECT_THAT(result.frames[21].dropped, testing::HasSubstr("same angle"));
+  EXPECT_EQ(std::ranges::count_if(result.frames, [](const CaptureFrame& f) { return f.dropped.empty(); }),
+            33);
+}
+
+TEST(Capture, StageAnglesAreEnoughWhereTheSurfaceIsPlain) {
+  Simulation s = small();
+  s.texture = 0;
+  s.noise = 0.5;
+  const TemporaryFolder folder;
+  s.write(folder.path());
+  CaptureOptions options = small_options(s);
+  options.angle_source = AngleSource::equal;
+  EXPECT_GT(test::table_psnr(build_capture({folder.path()}, options).table, s, {}), 36);
+  options.angle_source = AngleSource::given;
+  for (int i = 0; i < s.frames; ++i) options.angles.push_back(s.angle(i));
+  EXPECT_GT(test::table_psnr(build_capture({folder.path()}, options).table, s, {}), 36);
+  options.angles.pop_back();
+  EXPECT_THROW(build_capture({folder.path()}, options), Error);
+}
+
+TEST(Capture, TangentFromTheSeamOrReadOffAFrame) {
+  Simulation s = small();
+  s.seam = true;
+  CaptureOptions options = small_options(s);
+  options.zero = ZeroAngle::seam;
+  options.zero_angle = radians(-90);
+  const TemporaryFolder folder;
+  s.write(folder.path());
+  const CaptureResult from_seam = build_capture({folder.path()}, options);
+  EXPECT_NEAR(degrees(from_seam.frames[0].angle), s.first_angle, 1);
+  options.zero = ZeroAngle::thread;
+  options.zero_frame = 9;
+  options.zero_angle = radians(s.first_angle) + s.angle(9);
+  EXPECT_NEAR(degrees(build_capture({folder.path()}, options).frames[0].angle), s.first_angle, 0.5);
+}
+
+TEST(Capture, APaintedMaskIsTrackedThroughTheTurn) {
+  Simulation s = small();
+  s.seam = true;
+  const TemporaryFolder folder;
+  s.write(folder.path());
+  Image paint(s.width, s.height, 1);
+  const int painted = 5;
+  const SphereView sphere = s.sphere_of(painted);
+  const Mat3 back = Eigen::AngleAxisd(-s.angle(painted), s.axis()).toRotationMatrix();
+  for (int y = 0; y < s.height; ++y) {
+    for (int x = 0; x < s.width; ++x) {
+      Vec3 n;
+      if (normal_at_pixel(s.camera(), sphere, {x + 0.5, y + 0.5}, n) && s.in_seam(back * n))
+        paint.at(x, y, 0) = 1;
+    }
+  }
+  const TemporaryFolder other;
+  write_image(other / "mask.png", paint);
+  CaptureOptions options = small_options(s);
+  options.find_blemishes = false;
+  const CaptureResult without = build_capture({folder.path()}, options);
+  options.mask = other / "mask.png";
+  options.mask_frame = painted;
+  const CaptureResult with = build_capture({folder.path()}, options);
+  EXPECT_GT(with.mask.share, 0.01);
+  EXPECT_GT(test::table_psnr(with.table, s, with.seen), test::table_psnr(without.table, s, without.seen) + 5);
+  options.mask_frame = 99;
+  EXPECT_THROW(build_capture({folder.path()}, options), Error);
+}
+
+TEST(Capture, APostInFrontIsLeftOut) {
+  Simulation s = small();
+  s.covered = true;
+  const CaptureResult result = captured(s, small_options(s));
+  EXPECT_THAT(result.warnings, testing::Contains(testing::HasSubstr("stands still")));
+  EXPECT_GT(test::table_psnr(result.table, s, result.seen), 33);
+}
+
+TEST(Capture, ExposureAndColourDriftAreRemoved) {
+  Simulation s = small();
+  s.drift = 0.2;
+  s.colour_drift = 0.05;
+  const CaptureResult result = captured(s, small_options(s));
+  EXPECT_LT(errors_of(result, s).exposure, 0.01);
+  EXPECT_THAT(result.warnings, testing::Contains(testing::HasSubstr("exposure changes")));
+  EXPECT_GT(test::table_psnr(result.table, s, result.seen), 35);
+}
+
+TEST(Capture, ClippedHighlightsAreReported) {
+  Simulation s = small();
+  s.exposure = 2;
+  const CaptureResult result = captured(s, small_options(s));
+  EXPECT_GT(result.clipped_share, 0.01);
+  EXPECT_THAT(result.warnings, testing::Contains(testing::HasSubstr("clipped")));
+}
+
+TEST(Capture, AVideoGivesTheTableOfItsPictures) {
+  Simulation s = small();
+  s.noise = 0;
+  const TemporaryFolder folder;
+  test::write_video(s, folder / "turn.avi");
+  const CaptureResult result = build_capture({folder / "turn.avi"}, small_options(s));
+  EXPECT_EQ(result.frames.size(), 36);
+  EXPECT_GT(test::table_psnr(result.table, s, result.seen), 35);
+
+  // An index that promises frames the file no longer has.
+  auto bytes = read_bytes(folder / "turn.avi");
+  bytes.resize(bytes.size() / 4);
+  write_bytes(folder / "cut.avi", bytes);
+  EXPECT_THROW(build_capture({folder / "cut.avi"}, small_options(s)), Error);
+  write_text(folder / "none.mp4", "no video at all");
+  EXPECT_THROW(build_capture({folder / "none.mp4"}, small_options(s)), Error);
+}
+
+TEST(CaptureErrors, NoSphere) {
+  Simulation s = small();
+  s.sphere = false;
+  EXPECT_THAT(complaint(s), testing::HasSubstr("no sphere"));
+}
+
+TEST(CaptureErrors, TwoSpheres) {
+  Simulation s = small();
+  s.centre = {275, 112};
+  s.second_sphere = true;
+  EXPECT_THAT(complaint(s), testing::HasSubstr("two turning spheres"));
+}
+
+TEST(CaptureErrors, IncompleteTurn) {
+  Simulation s = small();
+  s.turn = 300;
+  EXPECT_THAT(complaint(s), testing::HasSubstr("turn is not complete"));
+}
+
+TEST(CaptureErrors, CutByTheEdge) {
+  Simulation s = small();
+  s.centre = {350, 112};
+  EXPECT_THAT(complaint(s), testing::HasSubstr("cut by the picture's edge"));
+}
+
+TEST(CaptureErrors, CameraMoved) {
+  Simulation s = small();
+  s.camera_move = {6, 3};
+  EXPECT_THAT(complaint(s), testing::HasSubstr("camera moved"));
+}
+
+TEST(CaptureErrors, TooFewFrames) {
+  Simulation s = small();
+  s.frames = 3;
+  EXPECT_THAT(complaint(s), testing::HasSubstr("only 3 frames"));
+}
+
+TEST(CaptureErrors, NothingToRegister) {
+  Simulation s = small();
+  s.texture = 0;
+  s.noise = 0.5;
+  EXPECT_THAT(complaint(s), testing::HasSubstr("--angles"));
+}
+
+TEST(CaptureErrors, FilesThatAreWrong) {
+  Simulation s = small();
+  s.frames = 14;
+  const TemporaryFolder folder;
+  s.write(folder.path());
+  auto bytes = read_bytes(folder / "frame_003.png");
+  bytes.resize(bytes.size() / 2);
+  write_bytes(folder / "frame_003.png", bytes);
+  EXPECT_THROW(build_capture({folder.path()}, small_options(s)), Error);
+  write_image(folder / "frame_003.png", Image(40, 30, 3, 0.5f));
+  EXPECT_THROW(build_capture({folder.path()}, small_options(s)), Error);
+  EXPECT_THROW(build_capture({folder / "missing"}, small_options(s)), Error);
 }
 
 }  // namespace

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "command.h"
+#include "commands.h"
+#include "sateen/capture/calibrate.h"
+#include "sateen/io/file.h"
+#include "sateen/io/image.h"
+
+namespace sateen::cli {
+namespace {
+
+struct Arguments {
+  std::vector<std::filesystem::path> inputs;
+  std::filesystem::path output;
+  int columns = 9;
+  int rows = 6;
+  bool json = false;
+};
+
+void run(const Arguments& arguments) {
+  const auto files = expand_inputs(arguments.inputs, image_extensions());
+  const Calibration found = calibrate(files, arguments.columns, arguments.rows);
+  for (const std::string& file : found.unusable)
+    warn(fmt::format("{}: no whole chessboard found, left out", file));
+  write_camera(arguments.output, found.camera, found.rms_pixels);
+  if (!arguments.json) return;
+  print(nlohmann::ordered_json{{"focal", {found.camera.focal.x(), found.camera.focal.y()}},
+                               {"principal", {found.camera.principal.x(), found.camera.principal.y()}},
+                               {"distortion", found.camera.distortion},
+                               {"rms_pixels", found.rms_pixels},
+                               {"used", found.used},
+                               {"left_out", found.unusable}}
+            .dump(2) +
+        "\n");
+}
+
+}  // namespace
+
+void add_capture_calibrate(CLI::App& parent) {
+  auto arguments = std::make_shared<Arguments>();
+  CLI::App* command =
+      add_command(parent, "calibrate", "Measure a camera's lens with pictures of a chessboard",
+                  "sateen capture calibrate boards --columns 9 --rows 6 -o camera.json");
+  command
+      ->add_option("inputs", arguments->inputs,
+                   "Pictures of a flat chessboard in at least 5 poses, or a folder")
+      ->required();
+  command->add_option("-o,--output", arguments->output, "The camera, for --calibration (JSON)")->required();
+  command->add_option("--columns", arguments->columns, "Inner corners in a row of the board")
+      ->check(CLI::Range(3, 100));
+  command->add_option("--rows", arguments->rows, "Inner corners in a column of the board")
+      ->check(CLI::Range(3, 100));
+  command->add_flag("--json", arguments->json, "Print what was found as JSON");
+  command->callback([arguments] { run(*arguments); });
+}
+
+}  // namespace sateen::cli
