@@ -70,32 +70,32 @@ CLI::App& add_noun(CLI::App& app, const char* name, const char* summary) {
 
 void add_commands(CLI::App& app) {
   using namespace sateen::cli;
+  add_render(app);
+  add_shade(app);
+  CLI::App& capture = add_noun(app, "capture", "From a camera and a turning sphere to an Anisotropic MatCap");
+  add_capture_build(capture);
+  add_capture_calibrate(capture);
+  add_capture_live(capture);
   CLI::App& amc = add_noun(app, "amc", "Anisotropic MatCaps: build from frames, inspect, convert");
   add_amc_build(amc);
   add_amc_symmetry(amc);
   add_amc_info(amc);
   add_amc_pictures(amc);
   add_amc_convert(amc);
-  CLI::App& brdf = add_noun(app, "brdf", "Reflectance models: evaluate, plot");
-  add_brdf_eval(brdf);
-  add_brdf_plot(brdf);
   CLI::App& matcap = add_noun(app, "matcap", "MatCap decomposition: turn the light, change the material");
   add_matcap_separate(matcap);
   add_matcap_estimate(matcap);
   add_matcap_decompose(matcap);
   add_matcap_info(matcap);
   add_matcap_bake(matcap);
-  add_render(app);
-  add_shade(app);
+  CLI::App& brdf = add_noun(app, "brdf", "Reflectance models: evaluate, plot");
+  add_brdf_eval(brdf);
+  add_brdf_plot(brdf);
   CLI::App& maps = add_noun(app, "maps", "Texture maps: author, filter, compress");
   CLI::App& aniso = add_noun(maps, "aniso", "Anisotropy maps: author, filter with normals, decode");
   add_maps_aniso_author(aniso);
   add_maps_aniso_decode(aniso);
   add_maps_aniso_filter(aniso);
-  CLI::App& capture = add_noun(app, "capture", "From a camera and a turning sphere to an Anisotropic MatCap");
-  add_capture_build(capture);
-  add_capture_calibrate(capture);
-  add_capture_live(capture);
 }
 
 int run(int argc, char** argv) {
