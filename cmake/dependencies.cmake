@@ -5,11 +5,15 @@ find_package(fmt REQUIRED)
 find_package(TBB REQUIRED)
 find_package(nlohmann_json REQUIRED)
 find_package(assimp REQUIRED)
-find_package(embree 3 REQUIRED)
+find_package(JPEG REQUIRED)
+# Debian 12 has version 3, Ubuntu 24.04 version 4.
+find_package(embree REQUIRED)
 find_package(OpenCV REQUIRED COMPONENTS core imgproc imgcodecs videoio calib3d)
 find_package(PkgConfig REQUIRED)
 # OpenImageIO's own CMake config needs the tools package; pkg-config does not.
 pkg_check_modules(OIIO REQUIRED IMPORTED_TARGET OpenImageIO)
 pkg_check_modules(ZSTD REQUIRED IMPORTED_TARGET libzstd)
+# Its pkg-config file in Debian names paths that do not exist.
+find_library(SQUISH_LIBRARY squish REQUIRED)
 pkg_check_modules(EPOXY REQUIRED IMPORTED_TARGET epoxy)
 pkg_check_modules(EGL REQUIRED IMPORTED_TARGET egl)

@@ -17,6 +17,15 @@ endif()
 function(sateen_test name)
   add_executable(test_${name} ${ARGN})
   target_link_libraries(test_${name} PRIVATE sateen sateen_options sateen_test_support GTest::gtest_main GTest::gmock)
+  # Every test program has the same flags, so the first one's precompiled headers serve all.
+  get_property(first GLOBAL PROPERTY sateen_first_test)
+  if(first)
+    target_precompile_headers(test_${name} REUSE_FROM ${first})
+  else()
+    set_property(GLOBAL PROPERTY sateen_first_test test_${name})
+    target_precompile_headers(test_${name} PRIVATE
+      <gmock/gmock.h> <gtest/gtest.h> <Eigen/Geometry> <fmt/format.h> <filesystem> <functional> <string> <vector>)
+  endif()
   gtest_discover_tests(test_${name} TEST_PREFIX "${name}." DISCOVERY_MODE PRE_TEST PROPERTIES TIMEOUT 300)
 endfunction()
 

@@ -29,7 +29,8 @@ LoadedFrames load(const FrameArguments& arguments) {
   options.size = arguments.size;
   options.first_angle = wrap(arguments.first_angle / 360);
   options.clockwise = arguments.direction == "cw";
-  if (!arguments.crop.empty()) options.crop = Crop{arguments.crop[0], arguments.crop[1], arguments.crop[2]};
+  if (!arguments.crop.empty())
+    options.crop = PixelRect{arguments.crop[0], arguments.crop[1], arguments.crop[2], arguments.crop[2]};
   options.skip_bad = arguments.skip_bad;
   options.on_skipped = [](const std::string& why) { warn("left out " + why); };
   options.progress = progress_bar("Reading frames");

@@ -10,13 +10,16 @@
 #include <unistd.h>
 
 #include "sateen/core/error.h"
+#include "sateen/core/parallel.h"
 
 namespace sateen::cli {
 
 CLI::App* add_command(CLI::App& parent, const std::string& name, const std::string& summary,
                       const std::string& example) {
   CLI::App* command = parent.add_subcommand(name, summary);
-  command->fallthrough();
+  command->add_option_function<int>("--threads", limit_threads, "Threads to use; 0 means all processors")
+      ->check(CLI::NonNegativeNumber)
+      ->type_name("INT");
   command->footer("Example:\n  " + example);
   return command;
 }
@@ -38,8 +41,10 @@ Progress progress_bar(std::string label) {
     if (percent <= state->shown || Clock::now() - state->start < std::chrono::seconds(1)) return;
     state->shown = percent;
     const int filled = percent * 30 / 100;
-    fmt::print(stderr, "\r{} [{:#<{}}{:.<{}}] {:3}%", state->label, "", filled, "", 30 - filled, percent);
-    if (percent >= 100) fmt::print(stderr, "\r{:{}}\r", "", state->label.size() + 40);
+    std::string line =
+        fmt::format("\r{} [{:#<{}}{:.<{}}] {:3}%", state->label, "", filled, "", 30 - filled, percent);
+    if (percent >= 100) line += fmt::format("\r{:{}}\r", "", state->label.size() + 40);
+    std::fputs(line.c_str(), stderr);
     std::fflush(stderr);
   };
 }
@@ -50,8 +55,12 @@ void print(const std::string& text) {
   }
 }
 
+void say(const std::string& text) {
+  std::fputs(fmt::format("sateen: {}\n", text).c_str(), stderr);
+}
+
 void warn(const std::string& text) {
-  fmt::print(stderr, "sateen: warning: {}\n", text);
+  say("warning: " + text);
 }
 
 }  // namespace sateen::cli

@@ -9,9 +9,9 @@
 
 namespace sateen::cli {
 
-/// A subcommand `name` under `parent` that runs `run` once the whole command line is parsed; `example` is a
-/// command that really runs and ends its --help. Each file of this folder adds one: parse, call the library,
-/// report.
+/// A subcommand `name` under `parent`, with the option --threads, that runs `run` once the whole command line
+/// is parsed; `example` is a command that really runs and ends its --help. Each file of this folder adds one:
+/// parse, call the library, report.
 CLI::App* add_command(CLI::App& parent, const std::string& name, const std::string& summary,
                       const std::string& example);
 
@@ -21,7 +21,9 @@ Progress progress_bar(std::string label);
 /// Prints to stdout: what the user asked for, nothing else. Throws Error when stdout cannot take it.
 void print(const std::string& text);
 
-/// Tells the user something on stderr that is no error but worth knowing.
+/// Tells the user something on stderr; that this fails is no reason to fail.
+void say(const std::string& text);
+/// The same for what is no error but worth knowing.
 void warn(const std::string& text);
 
 }  // namespace sateen::cli

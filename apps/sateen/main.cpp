@@ -10,7 +10,6 @@
 #include "command.h"
 #include "commands.h"
 #include "sateen/core/error.h"
-#include "sateen/core/parallel.h"
 
 namespace {
 
@@ -65,26 +64,42 @@ std::string suggestion(const CLI::App& app, const std::vector<std::string>& unkn
 /// A noun that groups commands: `sateen amc build`.
 CLI::App& add_noun(CLI::App& app, const char* name, const char* summary) {
   CLI::App* noun = app.add_subcommand(name, summary);
-  noun->fallthrough();
   noun->require_subcommand(1);
   return *noun;
 }
 
 void add_commands(CLI::App& app) {
   using namespace sateen::cli;
+  add_render(app);
+  add_shade(app);
+  CLI::App& capture = add_noun(app, "capture", "From a camera and a turning sphere to an Anisotropic MatCap");
+  add_capture_build(capture);
+  add_capture_calibrate(capture);
+  add_capture_live(capture);
   CLI::App& amc = add_noun(app, "amc", "Anisotropic MatCaps: build from frames, inspect, convert");
   add_amc_build(amc);
   add_amc_symmetry(amc);
   add_amc_info(amc);
   add_amc_pictures(amc);
   add_amc_convert(amc);
-  CLI::App& capture = add_noun(app, "capture", "From a camera and a turning sphere to an Anisotropic MatCap");
-  add_capture_build(capture);
-  add_capture_calibrate(capture);
-  add_capture_live(capture);
+  CLI::App& matcap = add_noun(app, "matcap", "MatCap decomposition: turn the light, change the material");
+  add_matcap_separate(matcap);
+  add_matcap_estimate(matcap);
+  add_matcap_decompose(matcap);
+  add_matcap_info(matcap);
+  add_matcap_bake(matcap);
+  CLI::App& brdf = add_noun(app, "brdf", "Reflectance models: evaluate, plot");
+  add_brdf_eval(brdf);
+  add_brdf_plot(brdf);
+  CLI::App& maps = add_noun(app, "maps", "Texture maps: author, filter, compress");
+  CLI::App& aniso = add_noun(maps, "aniso", "Anisotropy maps: author, filter with normals, decode");
+  add_maps_aniso_author(aniso);
+  add_maps_aniso_decode(aniso);
+  add_maps_aniso_filter(aniso);
 }
 
 int run(int argc, char** argv) {
+  using sateen::cli::say;
   using namespace sateen::cli;
   CLI::App app(
       "Sateen captures how anisotropic materials look, edits that look, and shows it on any 3D model.",
@@ -93,10 +108,6 @@ int run(int argc, char** argv) {
   app.require_subcommand(1);
   app.get_formatter()->column_width(34);
   app.option_defaults()->always_capture_default();
-  int threads = 0;
-  app.add_option("--threads", threads, "Threads to use; 0 means all processors")
-      ->check(CLI::NonNegativeNumber);
-  app.parse_complete_callback([&] { sateen::limit_threads(threads); });
   add_commands(app);
 
   try {
@@ -107,7 +118,7 @@ int run(int argc, char** argv) {
     const std::vector<std::string> unknown = app.remaining(true);
     const std::string what =
         unknown.empty() ? error.what() : "unknown here: " + fmt::format("{}", fmt::join(unknown, " "));
-    fmt::print(stderr, "sateen: {}.{}\nSee --help.\n", what, suggestion(app, unknown));
+    say(fmt::format("{}.{}\nSee --help.", what, suggestion(app, unknown)));
     return kCommandLineIsWrong;
   }
   return 0;
@@ -116,14 +127,15 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  using sateen::cli::say;
   try {
     return run(argc, argv);
   } catch (const sateen::Error& error) {
-    fmt::print(stderr, "sateen: {}\n", error.what());
+    say(error.what());
   } catch (const std::bad_alloc&) {
-    fmt::print(stderr, "sateen: not enough memory\n");
+    say("not enough memory");
   } catch (const std::exception& error) {
-    fmt::print(stderr, "sateen: unexpected failure, please report it: {}\n", error.what());
+    say(std::string("unexpected failure, please report it: ") + error.what());
   }
   return kInputIsWrong;
 }

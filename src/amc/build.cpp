@@ -19,31 +19,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-Image cropped(const Image& image, const Crop& crop) {
-  Image result(crop.size, crop.size, image.channels);
-  for (int y = 0; y < crop.size; ++y) {
-    const float* row = image.data.data() + image.index(crop.x, crop.y + y);
-    std::copy_n(row, result.index(0, 1),
-                result.data.begin() + static_cast<std::ptrdiff_t>(result.index(0, y)));
-  }
-  return result;
-}
-
-void check_geometry(const fs::path& file, int width, int height, const LoadFramesOptions& options) {
-  if (options.crop) {
-    const Crop& crop = *options.crop;
-    if (crop.size < 1 || crop.x < 0 || crop.y < 0 || crop.x + crop.size > width ||
-        crop.y + crop.size > height) {
-      throw Error(fmt::format("{}: the crop {},{},{} leaves the {} x {} picture", file.string(), crop.x,
-                              crop.y, crop.size, width, height));
-    }
-  } else if (width != height) {
-    throw Error(
-        fmt::format("{}: is {} x {} pixels; rectified frames are square and just hold the sphere. Give "
-                    "--crop X,Y,SIZE, or use "
-                    "'sateen capture build' for photographs",
-                    file.string(), width, height));
-  }
+void check_square(const fs::path& file, const ImageInfo& info, const LoadFramesOptions& options) {
+  if (options.crop || info.width == info.height) return;
+  throw Error(
+      fmt::format("{}: is {} x {} pixels; rectified frames are square and just hold the sphere. Give --crop "
+                  "X,Y,SIZE, or use "
+                  "'sateen capture build' for photographs",
+                  file.string(), info.width, info.height));
 }
 
 }  // namespace
@@ -68,12 +50,12 @@ LoadedFrames load_frames(std::span<const fs::path> files, const LoadFramesOption
     Loaded& frame = loaded[static_cast<std::size_t>(i)];
     const fs::path& file = files[static_cast<std::size_t>(i)];
     try {
-      frame.floating = read_image_info(file).floating;
-      Image image = read_image(file);
-      frame.width = image.width;
-      frame.height = image.height;
-      check_geometry(file, image.width, image.height, options);
-      if (options.crop) image = cropped(image, *options.crop);
+      const ImageInfo info = read_image_info(file);
+      frame.floating = info.floating;
+      frame.width = info.width;
+      frame.height = info.height;
+      check_square(file, info, options);
+      Image image = read_image(file, {.region = options.crop});
       frame.image = with_channels(resized_disc(std::move(image), options.size), 3);
       // Ringing of the photograph's own filters can go below black; light cannot.
       for (float& v : frame.image.data) v = std::max(v, 0.0f);

@@ -14,19 +14,12 @@
 
 namespace sateen {
 
-/// A square region of every photograph, in pixels from the top left corner.
-struct Crop {
-  int x = 0;
-  int y = 0;
-  int size = 0;
-};
-
 struct LoadFramesOptions {
-  int size = 128;            ///< S: frames are area-filtered to this
-  double first_angle = 0;    ///< tangent angle of the first frame, turns
-  bool clockwise = false;    ///< the sphere turns clockwise as the picture shows it
-  std::optional<Crop> crop;  ///< without it frames must be square
-  bool skip_bad = false;     ///< leave out files that cannot be read, instead of failing
+  int size = 128;                 ///< S: frames are area-filtered to this
+  double first_angle = 0;         ///< tangent angle of the first frame, turns
+  bool clockwise = false;         ///< the sphere turns clockwise as the picture shows it
+  std::optional<PixelRect> crop;  ///< the square that just holds the sphere; without it frames must be square
+  bool skip_bad = false;          ///< leave out files that cannot be read, instead of failing
   std::function<void(const std::string&)> on_skipped;  ///< told why a file was left out
   Progress progress;
 };

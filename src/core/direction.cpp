@@ -39,6 +39,14 @@ Mat3 eye_frame(const Vec3& towards_eye) {
   return rotation_between(towards_eye, Vec3::UnitZ());
 }
 
+Vec3 seen_normal(const Vec3& eye_normal) {
+  if (eye_normal.z() >= 0) return eye_normal;
+  const double length = eye_normal.head<2>().norm();
+  // Turned straight away: no point of the rim is nearer than another.
+  if (length == 0) return {1, 0, 0};
+  return {eye_normal.x() / length, eye_normal.y() / length, 0};
+}
+
 Vec3 perspective_equation4(const Vec3& direction, const Vec3& position) {
   const double x = position.x() / position.z();
   const double y = position.y() / position.z();

@@ -34,6 +34,10 @@ Mat3 rotation_between(const Vec3& from, const Vec3& to);
 /// space.
 Mat3 eye_frame(const Vec3& towards_eye);
 
+/// An eye-frame normal as tables of seen normals know it: one that interpolation or a normal map turned away
+/// from the eye (z < 0) is taken to the nearest that is seen, on the rim.
+Vec3 seen_normal(const Vec3& eye_normal);
+
 /// Equation (4) of Magri et al., kept by name: the x and y of a view-space unit vector corrected for
 /// perspective, x and y separately, from the view-space position (eye at the origin, looking down -z). Not a
 /// rotation: normals near the picture's corners can land outside the disc. z is left as it is.

@@ -7,40 +7,55 @@
 #include "sateen/core/parallel.h"
 
 namespace sateen {
+namespace {
+
+/// Bilinear sample at continuous pixel coordinates, from those of the four pixels that are trusted.
+void sample_trusted(const Image& image, double x, double y, double inset, std::vector<double>& colour) {
+  const int x0 = static_cast<int>(x - 0.5);
+  const int y0 = static_cast<int>(y - 0.5);
+  const double fx = x - 0.5 - x0;
+  const double fy = y - 0.5 - y0;
+  double sum = 0;
+  std::ranges::fill(colour, 0);
+  for (int i = 0; i < 4; ++i) {
+    const int px = x0 + i % 2;
+    const int py = y0 + i / 2;
+    if (!inside_disc(px, py, image.width, inset)) continue;
+    const double weight = (i % 2 == 1 ? fx : 1 - fx) * (i / 2 == 1 ? fy : 1 - fy);
+    const auto pixel = image.pixel(px, py);
+    for (std::size_t c = 0; c < colour.size(); ++c) colour[c] += weight * pixel[c];
+    sum += weight;
+  }
+  for (double& v : colour) v /= sum;
+}
+
+}  // namespace
 
 bool inside_disc(int x, int y, int size, double inset) {
   const double half = size / 2.0;
-  const double outer_corner = std::hypot(std::abs(x + 0.5 - half) + 0.5, std::abs(y + 0.5 - half) + 0.5);
-  return outer_corner <= half - inset;
+  const double corner_x = std::abs(x + 0.5 - half) + 0.5;
+  const double corner_y = std::abs(y + 0.5 - half) + 0.5;
+  const double radius = half - inset;
+  return radius > 0 && corner_x * corner_x + corner_y * corner_y <= radius * radius;
 }
 
 void fill_from_rim(Image& image, double inset) {
   const int size = image.width;
   if (size < 4) return;
-  const std::size_t channels = static_cast<std::size_t>(image.channels);
-  // Colours of trusted pixels with a last channel of 1, all others 0: sampling and dividing ignores the background.
-  Image trusted(size, size, image.channels + 1);
-  parallel_for(size, [&](int y) {
-    for (int x = 0; x < size; ++x) {
-      if (!inside_disc(x, y, size, inset)) continue;
-      const auto out = trusted.pixel(x, y);
-      std::ranges::copy(image.pixel(x, y), out.begin());
-      out[channels] = 1;
-    }
-  });
   const double half = size / 2.0;
-  // One pixel inside the trusted rim: of the four pixels a sample there blends, the inner one is always trusted.
+  // One pixel inside the trusted rim: of the four pixels a sample there blends, the inner one is always
+  // trusted.
   const double source_radius = half - inset - 1;
   parallel_for(size, [&](int y) {
-    std::vector<double> sample(channels + 1);
+    std::vector<double> colour(static_cast<std::size_t>(image.channels));
     for (int x = 0; x < size; ++x) {
-      if (trusted.pixel(x, y)[channels] > 0) continue;
+      if (inside_disc(x, y, size, inset)) continue;
       const double dx = x + 0.5 - half;
       const double dy = y + 0.5 - half;
       const double scale = source_radius / std::hypot(dx, dy);
-      sample_bilinear(trusted, half + dx * scale, half + dy * scale, sample);
-      const auto out = image.pixel(x, y);
-      for (std::size_t c = 0; c < channels; ++c) out[c] = static_cast<float>(sample[c] / sample[channels]);
+      sample_trusted(image, half + dx * scale, half + dy * scale, inset, colour);
+      std::ranges::transform(colour, image.pixel(x, y).begin(),
+                             [](double v) { return static_cast<float>(v); });
     }
   });
 }

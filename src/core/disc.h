@@ -17,7 +17,7 @@ inline constexpr double kRimInset = 0.5;
 bool inside_disc(int x, int y, int size, double inset = kRimInset);
 
 /// Replaces every pixel that is not inside_disc by the trusted colour towards the centre, so that filtering
-/// never sees background. Pictures must be square; with fewer than 4 pixels a side nothing is changed.
+/// never sees background. Pictures must be square; one too small to hold a trusted pixel stays as it is.
 void fill_from_rim(Image& image, double inset = kRimInset);
 
 /// The picture filled from the rim, then area-filtered to size x size.

@@ -60,6 +60,20 @@ void Image::set_rgb(int x, int y, const Vec3f& value) {
   for (int c = 0; c < std::min(channels, 3); ++c) p[c] = value[c];
 }
 
+bool fits(const PixelRect& region, int width, int height) {
+  return region.x >= 0 && region.y >= 0 && region.width > 0 && region.height > 0 &&
+         region.width <= width - region.x && region.height <= height - region.y;
+}
+
+Image cropped(const Image& image, const PixelRect& region) {
+  Image result(region.width, region.height, image.channels);
+  for (int y = 0; y < region.height; ++y) {
+    const float* row = image.data.data() + image.index(region.x, region.y + y);
+    std::copy_n(row, result.index(0, 1), result.data.data() + result.index(0, y));
+  }
+  return result;
+}
+
 Image with_channels(const Image& image, int channels) {
   if (channels == image.channels) return image;
   Image result(image.width, image.height, channels, 1);

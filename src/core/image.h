@@ -42,6 +42,20 @@ struct Image {
   void set_rgb(int x, int y, const Vec3f& value);
 };
 
+/// A rectangle of pixels, from the top left corner of a picture.
+struct PixelRect {
+  int x = 0;
+  int y = 0;
+  int width = 0;
+  int height = 0;
+};
+
+/// Whether a region holds at least one pixel and lies inside a width x height picture.
+bool fits(const PixelRect& region, int width, int height);
+
+/// The pixels of a region that fits.
+Image cropped(const Image& image, const PixelRect& region);
+
 /// The same picture with exactly `channels` channels: grey is repeated, a missing fourth channel is 1, others
 /// are cut.
 Image with_channels(const Image& image, int channels);

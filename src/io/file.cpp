@@ -5,7 +5,6 @@
 #include <atomic>
 #include <cctype>
 #include <cerrno>
-#include <fstream>
 #include <system_error>
 
 #include <fcntl.h>
@@ -45,6 +44,14 @@ bool natural_less(const std::string& a, const std::string& b) {
   return a < b;
 }
 
+constexpr std::size_t kReadAhead = std::size_t{64} << 10;
+
+/// Closes a file descriptor whichever way its scope is left.
+struct Closer {
+  int file;
+  ~Closer() { close(file); }
+};
+
 [[noreturn]] void fail_errno(const char* verb, const fs::path& path) {
   throw Error(fmt::format("{}: cannot {}: {}", path.string(), verb, std::generic_category().message(errno)));
 }
@@ -53,20 +60,25 @@ bool natural_less(const std::string& a, const std::string& b) {
 
 void write_atomically(const fs::path& target, const std::function<void(const fs::path&)>& write) {
   static std::atomic<unsigned> counter{0};
-  const fs::path folder = target.has_parent_path() ? target.parent_path() : fs::path(".");
   std::error_code code;
+  // Renaming over a link would replace the link and leave the file it points to as it was.
+  const fs::path destination = fs::is_symlink(target, code) ? fs::weakly_canonical(target, code) : target;
+  const fs::path folder = destination.has_parent_path() ? destination.parent_path() : fs::path(".");
   if (!fs::is_directory(folder, code)) {
     throw Error(
         fmt::format("{}: cannot be written: the folder {} does not exist", target.string(), folder.string()));
   }
   if (fs::is_directory(target, code))
     throw Error(fmt::format("{}: cannot be written: it is a folder", target.string()));
+  if (fs::exists(target, code) && !fs::is_regular_file(target, code))
+    throw Error(
+        fmt::format("{}: cannot be written: it is a device or pipe, a file is needed", target.string()));
   if (access(folder.c_str(), W_OK) != 0) fail_errno("write", target);
-  const fs::path temporary = folder / fmt::format(".{}.{}-{}{}", target.stem().string(), getpid(), counter++,
-                                                  target.extension().string());
+  const fs::path temporary =
+      folder / fmt::format(".sateen-{}-{}{}", getpid(), counter++, target.extension().string());
   try {
     write(temporary);
-    fs::rename(temporary, target);
+    fs::rename(temporary, destination);
   } catch (const fs::filesystem_error& error) {
     fs::remove(temporary, code);
     throw Error(fmt::format("{}: cannot be written: {}", target.string(), error.code().message()));
@@ -105,12 +117,24 @@ std::vector<std::byte> read_bytes(const fs::path& path) {
   if (!fs::exists(path, code)) throw Error(fmt::format("{}: no such file", path.string()));
   if (fs::is_directory(path, code))
     throw Error(fmt::format("{}: is a folder, a file is needed", path.string()));
-  std::ifstream file(path, std::ios::binary | std::ios::ate);
-  if (!file) fail_errno("read", path);
-  std::vector<std::byte> bytes(static_cast<std::size_t>(file.tellg()));
-  file.seekg(0);
-  file.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
-  if (!file) fail_errno("read", path);
+  if (fs::is_character_file(path, code) || fs::is_block_file(path, code))
+    throw Error(fmt::format("{}: is a device, a file is needed", path.string()));
+  const int file = open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (file < 0) fail_errno("read", path);
+  const Closer closer{file};
+  // A pipe or a file of /proc has no length to rely on: its bytes are taken as they come.
+  const std::uintmax_t known = fs::is_regular_file(path, code) ? fs::file_size(path, code) : 0;
+  std::vector<std::byte> bytes(code ? 0 : static_cast<std::size_t>(known) + 1);  // one more, to see the end
+  std::size_t done = 0;
+  while (true) {
+    if (done == bytes.size()) bytes.resize(std::max(2 * done, kReadAhead));
+    const ssize_t n = ::read(file, bytes.data() + done, bytes.size() - done);
+    if (n < 0 && errno == EINTR) continue;
+    if (n < 0) fail_errno("read", path);
+    if (n == 0) break;
+    done += static_cast<std::size_t>(n);
+  }
+  bytes.resize(done);
   return bytes;
 }
 
@@ -130,9 +154,11 @@ std::vector<fs::path> expand_inputs(const std::vector<fs::path>& inputs,
       continue;
     }
     std::vector<fs::path> found;
-    for (const auto& entry : fs::directory_iterator(input)) {
+    const fs::directory_iterator entries(input, code);
+    if (code) throw Error(fmt::format("{}: cannot be read: {}", input.string(), code.message()));
+    for (const auto& entry : entries) {
       const bool hidden = entry.path().filename().string().starts_with('.');
-      if (!hidden && entry.is_regular_file() &&
+      if (!hidden && entry.is_regular_file(code) &&
           std::ranges::find(extensions, extension_of(entry.path())) != extensions.end()) {
         found.push_back(entry.path());
       }

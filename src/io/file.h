@@ -13,7 +13,8 @@ namespace sateen {
 
 /// Runs `write` on a temporary name beside `target` (same extension, same folder) and renames it to `target`
 /// when `write` returned; on any exception the temporary file is removed and an older target stays as it was.
-/// Throws Error when the folder does not exist or cannot be written, and what `write` throws.
+/// A symbolic link is followed. Throws Error when the folder does not exist or cannot be written, when
+/// `target` is a folder, device or pipe, and what `write` throws.
 void write_atomically(const std::filesystem::path& target,
                       const std::function<void(const std::filesystem::path& temporary)>& write);
 
@@ -21,7 +22,7 @@ void write_atomically(const std::filesystem::path& target,
 void write_bytes(const std::filesystem::path& target, std::span<const std::byte> bytes);
 void write_text(const std::filesystem::path& target, const std::string& text);
 
-/// A whole file. Throws Error when it is missing or cannot be read.
+/// A whole file, or all that comes through a pipe. Throws Error when it is missing or cannot be read.
 std::vector<std::byte> read_bytes(const std::filesystem::path& path);
 std::string read_text(const std::filesystem::path& path);
 

@@ -14,6 +14,8 @@
 #include "sateen/core/colour.h"
 #include "sateen/core/error.h"
 #include "sateen/io/file.h"
+#include "sateen/io/image_error.h"
+#include "sateen/io/jpeg.h"
 
 namespace sateen {
 namespace {
@@ -23,39 +25,35 @@ namespace fs = std::filesystem;
 // The most a file's compression can swell: deflate, the strongest in use, reaches 1032.
 constexpr double kMaxCompression = 4096;
 
-[[noreturn]] void fail(const fs::path& path, const std::string& what) {
-  throw Error(fmt::format("{}: {}", path.string(), what));
-}
-
-std::string reason(std::string message) {
-  while (!message.empty() && (message.back() == '\n' || message.back() == '.')) message.pop_back();
-  return message.empty() ? "unknown reason" : message;
-}
-
 std::unique_ptr<OIIO::ImageInput> open(const fs::path& path) {
   std::error_code code;
-  if (!fs::exists(path, code)) fail(path, "no such file");
-  if (fs::is_directory(path, code)) fail(path, "is a folder, a picture is needed");
+  if (!fs::exists(path, code)) image_fail(path, "no such file");
+  if (fs::is_directory(path, code)) image_fail(path, "is a folder, a picture is needed");
+  if (!fs::is_regular_file(path, code)) image_fail(path, "is no regular file, a picture is needed");
   OIIO::ImageSpec wishes;
   wishes["oiio:UnassociatedAlpha"] = 1;
   auto input = OIIO::ImageInput::open(path.string(), &wishes);
-  if (!input) fail(path, "cannot be read as a picture: " + reason(OIIO::geterror()));
+  if (!input) image_fail(path, "cannot be read as a picture: " + image_reason(OIIO::geterror()));
   const OIIO::ImageSpec& spec = input->spec();
-  if (spec.width < 1 || spec.height < 1 || spec.nchannels < 1) fail(path, "has no pixels");
-  if (spec.depth > 1) fail(path, "is a volume, a flat picture is needed");
-  if (spec.deep) fail(path, "is a deep picture, a flat one is needed");
-  const double bytes = static_cast<double>(spec.image_bytes(true));
-  const double stored = static_cast<double>(fs::file_size(path));
-  if (bytes > stored * kMaxCompression || bytes > 64e9) {
-    fail(path, fmt::format("claims {} x {} pixels, more than its {} bytes can hold", spec.width, spec.height,
-                           stored));
+  if (spec.width < 1 || spec.height < 1 || spec.nchannels < 1) image_fail(path, "has no pixels");
+  if (spec.depth > 1) image_fail(path, "is a volume, a flat picture is needed");
+  if (spec.deep) image_fail(path, "is a deep picture, a flat one is needed");
+  const double stored = static_cast<double>(fs::file_size(path, code));
+  const double pixel_bytes = static_cast<double>(spec.pixel_bytes(true));
+  for (const auto& [width, height] :
+       {std::pair{spec.width, spec.height}, std::pair{spec.full_width, spec.full_height}}) {
+    const double bytes = pixel_bytes * width * height;
+    if (code || bytes > stored * kMaxCompression || bytes > 64e9) {
+      image_fail(
+          path, fmt::format("claims {} x {} pixels, more than its {} bytes can hold", width, height, stored));
+    }
   }
   return input;
 }
 
 struct Decoded {
   Image image;
-  bool floating = false;
+  int steps = 0;  ///< between 0 and 1, of integer samples; 0: float samples
   bool alpha = false;
   bool associated = false;
 };
@@ -64,65 +62,121 @@ int sample_bits(const OIIO::ImageSpec& spec) {
   return spec.get_int_attribute("oiio:BitsPerSample", static_cast<int>(spec.format.size()) * 8);
 }
 
-Decoded decode(const fs::path& path, bool allow_non_finite) {
+/// An EXR may store a part of its picture, the data window; the rest is empty, and what lies outside is cut.
+Image in_display_window(const OIIO::ImageSpec& spec, Image data) {
+  const int dx = spec.x - spec.full_x;
+  const int dy = spec.y - spec.full_y;
+  if (dx == 0 && dy == 0 && spec.full_width == spec.width && spec.full_height == spec.height) return data;
+  Image full(spec.full_width, spec.full_height, data.channels);
+  for (int y = std::max(0, dy); y < std::min(full.height, dy + data.height); ++y) {
+    for (int x = std::max(0, dx); x < std::min(full.width, dx + data.width); ++x) {
+      std::ranges::copy(data.pixel(x - dx, y - dy), full.pixel(x, y).begin());
+    }
+  }
+  return full;
+}
+
+/// What sample k / steps stands for: itself, or the linear light of an sRGB sample. A table, since reading
+/// frames is to be bound by decoding and not by powers.
+std::vector<float> sample_values(int steps, bool srgb) {
+  std::vector<float> values(static_cast<std::size_t>(steps) + 1);
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const float sample = static_cast<float>(i) / static_cast<float>(steps);
+    values[i] = srgb ? srgb_decode(sample) : sample;
+  }
+  return values;
+}
+
+void decode_srgb(Image& image, int steps) {
+  const std::vector<float> values = sample_values(steps, true);
+  const std::size_t channels = static_cast<std::size_t>(image.channels);
+  const std::size_t colours = channels - (channels == 2 || channels == 4 ? 1 : 0);
+  for (std::size_t i = 0; i < image.data.size(); i += channels) {
+    for (std::size_t c = 0; c < colours; ++c) {
+      float& v = image.data[i + c];
+      v = values[static_cast<std::size_t>(v * static_cast<float>(steps) + 0.5f)];
+    }
+  }
+}
+
+Image turned_upright(const Image& image, int orientation) {
+  OIIO::ImageSpec flat(image.width, image.height, image.channels, OIIO::TypeDesc::FLOAT);
+  flat["Orientation"] = orientation;
+  // The buffer only looks at the pixels, though its interface does not promise it.
+  const OIIO::ImageBuf turned =
+      OIIO::ImageBufAlgo::reorient(OIIO::ImageBuf(flat, const_cast<float*>(image.data.data())));
+  Image result(turned.spec().width, turned.spec().height, image.channels);
+  turned.get_pixels(OIIO::ROI::All(), OIIO::TypeDesc::FLOAT, result.data.data());
+  return result;
+}
+
+void check_finite(const fs::path& path, const Image& image, const PixelRect& region) {
+  const auto bad = std::ranges::find_if_not(image.data, [](float v) { return std::isfinite(v); });
+  if (bad == image.data.end()) return;
+  const auto pixel = (bad - image.data.begin()) / image.channels;
+  image_fail(path, fmt::format("has a value that is not finite at pixel ({}, {})",
+                               region.x + pixel % image.width, region.y + pixel / image.width));
+}
+
+Decoded decode(const fs::path& path, const ReadImageOptions& options) {
   const auto input = open(path);
   const OIIO::ImageSpec& spec = input->spec();
   if (spec.get_int_attribute("oiio:Movie") != 0 && input->seek_subimage(1, 0)) {
-    fail(path, "is animated; a still picture is needed");
+    image_fail(path, "is animated; a still picture is needed");
   }
   input->seek_subimage(0, 0);
   const std::string space(
       spec.get_string_attribute("jpeg:ColorSpace", spec.get_string_attribute("tiff:ColorSpace")));
-  if (space == "CMYK" || space == "YCbCrK") fail(path, "is CMYK; convert it to RGB first");
+  if (space == "CMYK" || space == "YCbCrK") image_fail(path, "is CMYK; convert it to RGB first");
 
   Decoded result;
-  result.floating = spec.format.is_floating_point();
+  if (!spec.format.is_floating_point()) result.steps = spec.format.size() == 1 ? 255 : 65535;
   const int channels = std::min(spec.nchannels, 4);
   result.alpha =
       spec.alpha_channel >= 0 && spec.alpha_channel == channels - 1 && (channels == 2 || channels == 4);
   result.associated = spec.get_int_attribute("oiio:UnassociatedAlpha") == 0;
+  const bool integer = result.steps > 0;
+  const bool srgb =
+      options.encoding == Encoding::srgb || (options.encoding == Encoding::automatic && integer);
+  const int orientation = spec.get_int_attribute("Orientation", 1);
+  const PixelRect all{0, 0, orientation >= 5 ? spec.full_height : spec.full_width,
+                      orientation >= 5 ? spec.full_width : spec.full_height};
+  const PixelRect region = options.region.value_or(all);
+  if (!fits(region, all.width, all.height)) {
+    image_fail(path, fmt::format("the {} x {} pixels from ({}, {}) leave the {} x {} picture", region.width,
+                                 region.height, region.x, region.y, all.width, all.height));
+  }
+  const std::string_view type = input->format_name();
+  if (type == "jpeg") {
+    const std::vector<float> values = sample_values(255, srgb);
+    const bool upright = orientation <= 1;
+    result.image =
+        decode_jpeg(path, read_bytes(path), upright ? region : PixelRect{0, 0, spec.width, spec.height},
+                    std::span<const float, 256>(values));
+    if (!upright) result.image = cropped(turned_upright(result.image, orientation), region);
+    return result;
+  }
   result.image = Image(spec.width, spec.height, channels);
   if (!input->read_image(0, 0, 0, channels, OIIO::TypeDesc::FLOAT, result.image.data.data())) {
-    fail(path, "is truncated or corrupt: " + reason(input->geterror()));
+    image_fail(path, "is truncated or corrupt: " + image_reason(input->geterror()));
   }
-  if (const int orientation = spec.get_int_attribute("Orientation", 1); orientation > 1) {
-    OIIO::ImageSpec flat(result.image.width, result.image.height, channels, OIIO::TypeDesc::FLOAT);
-    flat["Orientation"] = orientation;
-    const OIIO::ImageBuf turned =
-        OIIO::ImageBufAlgo::reorient(OIIO::ImageBuf(flat, result.image.data.data()));
-    result.image = Image(turned.spec().width, turned.spec().height, channels);
-    turned.get_pixels(OIIO::ROI::All(), OIIO::TypeDesc::FLOAT, result.image.data.data());
-  }
-  if (!allow_non_finite && result.floating) {
-    const auto bad = std::ranges::find_if_not(result.image.data, [](float v) { return std::isfinite(v); });
-    if (bad != result.image.data.end()) {
-      const auto pixel = (bad - result.image.data.begin()) / channels;
-      fail(path, fmt::format("has a value that is not finite at pixel ({}, {})", pixel % result.image.width,
-                             pixel / result.image.width));
-    }
+  if (type == "openexr") result.image = in_display_window(spec, std::move(result.image));
+  if (orientation > 1) result.image = turned_upright(result.image, orientation);
+  if (options.region) result.image = cropped(result.image, region);
+  if (!options.allow_non_finite && !integer) check_finite(path, result.image, region);
+  if (srgb && integer) {
+    decode_srgb(result.image, result.steps);
+  } else if (srgb) {
+    result.image = srgb_decoded(std::move(result.image));
   }
   return result;
 }
 
-void multiply_by_alpha(Image& image, bool divide) {
+void multiply_by_alpha(Image& image) {
   const std::size_t n = static_cast<std::size_t>(image.channels);
   for (std::size_t i = 0; i < image.data.size(); i += n) {
-    const float alpha = image.data[i + n - 1];
-    const float factor = divide ? (alpha > 0 ? 1 / alpha : 0) : alpha;
-    for (std::size_t c = 0; c + 1 < n; ++c) image.data[i + c] *= factor;
+    for (std::size_t c = 0; c + 1 < n; ++c) image.data[i + c] *= image.data[i + n - 1];
   }
-}
-
-void write(const fs::path& path, OIIO::ImageSpec spec, const Image& image) {
-  write_atomically(path, [&](const fs::path& temporary) {
-    auto output = OIIO::ImageOutput::create(temporary.string());
-    if (!output) fail(path, "cannot be written: " + reason(OIIO::geterror()));
-    spec["Software"] = "Sateen";
-    if (!output->open(temporary.string(), spec) ||
-        !output->write_image(OIIO::TypeDesc::FLOAT, image.data.data()) || !output->close()) {
-      fail(path, "cannot be written: " + reason(output->geterror()));
-    }
-  });
 }
 
 }  // namespace
@@ -136,87 +190,21 @@ std::span<const std::string> image_extensions() {
 ImageInfo read_image_info(const fs::path& path) {
   const auto input = open(path);
   const OIIO::ImageSpec& spec = input->spec();
-  return {spec.width, spec.height, spec.nchannels, sample_bits(spec), spec.format.is_floating_point()};
+  ImageInfo info{spec.full_width, spec.full_height, spec.nchannels, sample_bits(spec),
+                 spec.format.is_floating_point()};
+  if (spec.get_int_attribute("Orientation", 1) >= 5)
+    std::swap(info.width, info.height);  // turned by 90 degrees
+  return info;
 }
 
 Image read_image(const fs::path& path, const ReadImageOptions& options) {
-  Decoded decoded = decode(path, options.allow_non_finite);
-  const bool srgb =
-      options.encoding == Encoding::srgb || (options.encoding == Encoding::automatic && !decoded.floating);
-  if (srgb) decoded.image = srgb_decoded(std::move(decoded.image));
-  if (decoded.alpha && !decoded.associated) multiply_by_alpha(decoded.image, false);
+  Decoded decoded = decode(path, options);
+  if (decoded.alpha && !decoded.associated) multiply_by_alpha(decoded.image);
   return std::move(decoded.image);
 }
 
 Image read_data(const fs::path& path, bool allow_non_finite) {
-  return decode(path, allow_non_finite).image;
-}
-
-void write_image(const fs::path& path, const Image& image) {
-  const std::string extension = extension_of(path);
-  const bool floating = extension == ".exr" || extension == ".hdr";
-  if (!floating && extension != ".png" && extension != ".jpg" && extension != ".jpeg" &&
-      extension != ".tif" && extension != ".tiff") {
-    fail(path, "unknown picture type; use .png, .jpg, .tif, .exr or .hdr");
-  }
-  const bool no_alpha = extension == ".jpg" || extension == ".jpeg" || extension == ".hdr";
-  Image out = no_alpha && image.channels > 3 ? with_channels(image, 3) : image;
-  OIIO::ImageSpec spec(out.width, out.height, out.channels, OIIO::TypeDesc::UINT8);
-  if (floating) {
-    spec.format = extension == ".exr" ? OIIO::TypeDesc::HALF : OIIO::TypeDesc::FLOAT;
-  } else {
-    if (out.channels == 2 || out.channels == 4) {
-      multiply_by_alpha(out, true);
-      spec["oiio:UnassociatedAlpha"] = 1;
-    }
-    out = srgb_encoded(std::move(out));
-    for (float& v : out.data) v = std::clamp(v, 0.0f, 1.0f);
-    spec["oiio:ColorSpace"] = "sRGB";
-    if (no_alpha) spec["Compression"] = "jpeg:95";
-  }
-  write(path, spec, out);
-}
-
-void write_data(const fs::path& path, const Image& image) {
-  const std::string extension = extension_of(path);
-  OIIO::ImageSpec spec(image.width, image.height, image.channels, OIIO::TypeDesc::FLOAT);
-  if (extension == ".png") {
-    spec.format = OIIO::TypeDesc::UINT16;
-  } else if (extension != ".exr") {
-    fail(path, "data pictures are written as .exr or .png");
-  }
-  spec["oiio:ColorSpace"] = "Linear";
-  spec["oiio:UnassociatedAlpha"] = 1;
-  write(path, spec, image);
-}
-
-void write_layers(const fs::path& path, std::span<const ImageLayer> layers) {
-  if (extension_of(path) != ".exr") fail(path, "layers are written as .exr");
-  if (layers.empty()) fail(path, "there are no layers to write");
-  int channels = 0;
-  for (const ImageLayer& layer : layers) {
-    if (layer.image.width != layers[0].image.width || layer.image.height != layers[0].image.height) {
-      fail(path, fmt::format("layer {} differs in size from layer {}", layer.name, layers[0].name));
-    }
-    channels += layer.image.channels;
-  }
-  Image all(layers[0].image.width, layers[0].image.height, channels);
-  OIIO::ImageSpec spec(all.width, all.height, channels, OIIO::TypeDesc::HALF);
-  spec.channelnames.clear();
-  int first = 0;
-  for (const ImageLayer& layer : layers) {
-    for (int c = 0; c < layer.image.channels; ++c) {
-      spec.channelnames.push_back(fmt::format("{}.{}", layer.name, "RGBA"[c]));
-    }
-    for (int y = 0; y < all.height; ++y) {
-      for (int x = 0; x < all.width; ++x) {
-        std::ranges::copy(layer.image.pixel(x, y), all.pixel(x, y).begin() + first);
-      }
-    }
-    first += layer.image.channels;
-  }
-  spec.alpha_channel = -1;
-  write(path, spec, all);
+  return decode(path, {.encoding = Encoding::linear, .allow_non_finite = allow_non_finite}).image;
 }
 
 }  // namespace sateen

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -19,10 +20,11 @@ enum class Encoding {
 
 struct ReadImageOptions {
   Encoding encoding = Encoding::automatic;
-  bool allow_non_finite = false;  ///< otherwise a NaN or infinity is an Error that names the pixel
+  bool allow_non_finite = false;         ///< otherwise a NaN or infinity is an Error that names the pixel
+  std::optional<PixelRect> region = {};  ///< read only these pixels; an Error if they leave the picture
 };
 
-/// What a file says of itself, without decoding its pixels.
+/// What a file says of itself, without decoding its pixels; the size is the one read_image returns.
 struct ImageInfo {
   int width = 0;
   int height = 0;
@@ -38,8 +40,9 @@ std::span<const std::string> image_extensions();
 ImageInfo read_image_info(const std::filesystem::path& path);
 
 /// A picture as linear floats with 1 to 4 channels; colour is multiplied by alpha (associated) where there is
-/// alpha. Of a file with named layers the first four channels are read. Rotated by EXIF orientation. Throws
-/// Error when the file is missing, truncated, corrupt, animated or CMYK, larger than its bytes can hold, or
+/// alpha. Of a file with named layers the first four channels are read. Rotated by EXIF orientation; an EXR
+/// is as large as its display window. Throws Error when the file is missing, truncated, corrupt (a JPEG whose
+/// scan breaks off too), animated or CMYK, larger than its bytes can hold, or
 /// not finite.
 Image read_image(const std::filesystem::path& path, const ReadImageOptions& options = {});
 
@@ -48,7 +51,8 @@ Image read_image(const std::filesystem::path& path, const ReadImageOptions& opti
 Image read_data(const std::filesystem::path& path, bool allow_non_finite = false);
 
 /// Writes by extension: .png (8 bit), .jpg, .tif as sRGB, clamped to [0, 1], alpha unassociated; .exr as half
-/// and .hdr linear. Atomic. Throws Error for another extension and when the file cannot be written.
+/// (finite values kept within +-65504) and .hdr linear. .jpg and .hdr have no alpha. Atomic. Throws Error for
+/// another extension and when the file cannot be written.
 void write_image(const std::filesystem::path& path, const Image& image);
 
 /// Writes samples as they are: .exr as 32-bit float, .png as 16 bit clamped to [0, 1]. Atomic. Throws as

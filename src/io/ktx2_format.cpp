@@ -42,7 +42,7 @@ TexelLayout plain(VkFormat format, std::uint32_t channels, std::uint32_t bytes, 
 
 /// 4 x 4 texels whose bits are split evenly among `channels`.
 TexelLayout block(VkFormat format, std::uint32_t bytes, std::uint8_t model,
-                  std::vector<std::uint8_t> channels, bool srgb = false) {
+                  const std::vector<std::uint8_t>& channels, bool srgb = false) {
   TexelLayout layout{format, 1, 4, bytes, model, srgb, {}};
   const auto bits = static_cast<std::uint16_t>(8 * bytes / channels.size());
   for (const std::uint8_t channel : channels) {

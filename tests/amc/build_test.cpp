@@ -92,12 +92,12 @@ TEST(BuildAmc, ACropFindsTheSphereInALargerPicture) {
   LoadFramesOptions options;
   options.size = 24;
   EXPECT_THROW(load_frames(files, options), Error);
-  options.crop = Crop{9, 4, 24};
+  options.crop = PixelRect{9, 4, 24, 24};
   const LoadedFrames loaded = load_frames(files, options);
   const Vec3 n = normal_on_disc(disc_of_pixel(12, 7, 24));
   EXPECT_LT((loaded.frames[2].image.rgb(12, 7).cast<double>() - analytic_colour(n, 0.25, 1)).norm(), 1e-3);
   EXPECT_LT(loaded.frames[2].image.rgb(0, 0).maxCoeff(), 1) << "background reached the table";
-  options.crop = Crop{20, 4, 24};
+  options.crop = PixelRect{20, 4, 24, 24};
   EXPECT_THROW(load_frames(files, options), Error);
 }
 

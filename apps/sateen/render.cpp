@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <filesystem>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "command.h"
+#include "commands.h"
+#include "parse.h"
+#include "sateen/core/direction.h"
+#include "sateen/gpu/context.h"
+#include "sateen/io/image.h"
+#include "sateen/io/video.h"
+#include "sateen/render/aov.h"
+#include "sateen/render/renderer.h"
+#include "scene_options.h"
+
+namespace sateen::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Arguments {
+  SceneArguments scene;
+  fs::path output;
+  std::string size = "1024x1024";
+  int samples = 3;
+  std::string background = "transparent";
+  std::string camera = "perspective";
+  double fov = 35;
+  std::string rotate = "0,0,0";
+  int turntable = 0;
+  double frames_per_second = 25;
+  std::vector<std::string> aovs;
+};
+
+Camera camera(const Arguments& arguments) {
+  Camera result;
+  if (arguments.camera == "orthographic") result.kind = Camera::Kind::orthographic;
+  if (arguments.camera == "view-space") result.kind = Camera::Kind::view_space;
+  result.field_of_view = radians(arguments.fov);
+  return result;
+}
+
+PictureSettings picture_settings(const Arguments& arguments) {
+  PictureSettings settings;
+  std::tie(settings.width, settings.height) = parse_size("--size", arguments.size);
+  settings.samples = arguments.samples;
+  settings.background = parse_background("--background", arguments.background);
+  settings.surfaces = !arguments.aovs.empty();
+  if (arguments.camera == "view-space" && settings.width != settings.height) {
+    throw CLI::ValidationError("--size",
+                               "--camera view-space fills a square picture; give as much width as height");
+  }
+  return settings;
+}
+
+/// One rotation for a still, one for each picture of a turntable: the object turns about the view's vertical.
+std::vector<Mat3> rotations(const Arguments& arguments) {
+  const Mat3 still = rotation_xyz(parse_vector("--rotate", arguments.rotate) * (kPi / 180));
+  std::vector<Mat3> result;
+  for (int i = 0; i < std::max(1, arguments.turntable); ++i) {
+    result.push_back(rotation_xyz({0, 2 * kPi * i / std::max(1, arguments.turntable), 0}) * still);
+  }
+  return result;
+}
+
+/// out/turn.png becomes out/turn_0007.png; out/turn, a folder, holds 0007.png.
+fs::path numbered(const fs::path& output, int index) {
+  if (!output.has_extension()) return output / fmt::format("{:04}.png", index);
+  fs::path path = output;
+  return path.replace_filename(
+      fmt::format("{}_{:04}{}", output.stem().string(), index, output.extension().string()));
+}
+
+void write_aovs(const Frame& frame, const fs::path& picture, const std::vector<std::string>& names) {
+  for (const std::string& name : names) {
+    fs::path path = picture;
+    write_data(path.replace_extension("." + name + ".exr"), aov(frame, name));
+  }
+}
+
+void check_aovs(const Arguments& arguments) {
+  for (const std::string& name : arguments.aovs) {
+    if (std::ranges::count(aov_names(), name) == 0) {
+      throw CLI::ValidationError(
+          "--aov", fmt::format("\"{}\" is not known; known are {}", name, fmt::join(aov_names(), ", ")));
+    }
+  }
+  if (!arguments.aovs.empty() && is_video_path(arguments.output)) {
+    throw CLI::ValidationError("--aov", "output variables go beside pictures, not beside a film");
+  }
+}
+
+void run(const Arguments& arguments) {
+  const PictureSettings settings = picture_settings(arguments);
+  const std::vector<Mat3> poses = rotations(arguments);
+  check_aovs(arguments);
+  const bool film = is_video_path(arguments.output);
+  if (film && arguments.turntable == 0) {
+    throw CLI::ValidationError("--output", "a film needs --turntable N, its number of pictures");
+  }
+  const Scene scene = load(arguments.scene);
+  const auto views = frame_object(scene.mesh, camera(arguments), poses,
+                                  static_cast<double>(settings.width) / settings.height);
+  const gpu::Context context;
+  const Renderer renderer(scene);
+  const int count = static_cast<int>(views.size());
+  const Progress progress = progress_bar("Drawing");
+  const auto draw = [&](int i) {
+    return renderer.render(views[static_cast<std::size_t>(i)], settings,
+                           [&, i](double fraction) { report(progress, (i + fraction) / count); });
+  };
+  if (film) {
+    write_video(arguments.output, count, arguments.frames_per_second, [&](int i) { return draw(i).colour; });
+    return;
+  }
+  if (arguments.turntable > 0 && !arguments.output.has_extension()) fs::create_directories(arguments.output);
+  for (int i = 0; i < count; ++i) {
+    const fs::path path = arguments.turntable > 0 ? numbered(arguments.output, i) : arguments.output;
+    const Frame frame = draw(i);
+    write_image(path, frame.colour);
+    write_aovs(frame, path, arguments.aovs);
+  }
+}
+
+}  // namespace
+
+void add_render(CLI::App& parent) {
+  auto arguments = std::make_shared<Arguments>();
+  CLI::App* command = add_command(
+      parent, "render", "Draw a mesh with a material, without a screen",
+      "sateen render examples/garment/jacket.obj --material silk.ktx2 --rotate 0,25,0 -o jacket.png");
+  add_scene_options(*command, arguments->scene);
+  command
+      ->add_option("-o,--output", arguments->output,
+                   "The picture: .png, .exr, .jpg, .tif or .hdr; with --turntable a name to be numbered, a "
+                   "folder, or a film "
+                   "(.mp4)")
+      ->required();
+  command->add_option("--size", arguments->size, "Width x height in pixels");
+  command
+      ->add_option("--samples", arguments->samples, "N x N samples in each pixel, averaged in linear light")
+      ->check(CLI::Range(1, 16));
+  command->add_option("--background", arguments->background,
+                      "transparent, R,G,B in linear light, or #rrggbb in sRGB");
+  command
+      ->add_option("--camera", arguments->camera,
+                   "The object is framed, unless view-space: its x, y in [-1, 1] then fill a square picture")
+      ->check(CLI::IsMember({"perspective", "orthographic", "view-space"}));
+  command->add_option("--fov", arguments->fov, "Vertical angle of view of the perspective camera, degrees")
+      ->check(CLI::Range(1.0, 150.0));
+  command->add_option("--rotate", arguments->rotate,
+                      "Turns the object about x, then y, then z, degrees; light and camera stay");
+  command->add_option("--turntable", arguments->turntable, "N pictures of a full turn")
+      ->check(CLI::Range(1, 100000));
+  command->add_option("--fps", arguments->frames_per_second, "Pictures a second of a film")
+      ->check(CLI::Range(1.0, 240.0));
+  command
+      ->add_option("--aov", arguments->aovs,
+                   "Output variables, written as float EXR beside the picture: " +
+                       fmt::format("{}", fmt::join(aov_names(), ",")))
+      ->delimiter(',');
+  command->callback([arguments] { run(*arguments); });
+}
+
+}  // namespace sateen::cli

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MIT
+#include "sateen/render/shade.h"
+
+#include <filesystem>
+
+#include "command.h"
+#include "commands.h"
+#include "sateen/io/image.h"
+#include "sateen/light/environment.h"
+#include "sateen/render/registry.h"
+
+namespace sateen::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Arguments {
+  fs::path normals;
+  fs::path tangents;
+  fs::path positions;
+  fs::path occlusion;
+  fs::path uvs;
+  fs::path curvature;
+  fs::path material;
+  fs::path environment;
+  fs::path output;
+};
+
+void run(const Arguments& arguments) {
+  const auto appearance = arguments.environment.empty()
+                              ? load_appearance(arguments.material)
+                              : load_appearance(arguments.material, read_environment(arguments.environment));
+  const auto read = [](const fs::path& path) { return path.empty() ? Image() : read_data(path); };
+  const ShadeInputs inputs{.normals = read(arguments.normals),
+                           .tangents = read(arguments.tangents),
+                           .positions = read(arguments.positions),
+                           .occlusion = read(arguments.occlusion),
+                           .uvs = read(arguments.uvs),
+                           .curvature = read(arguments.curvature)};
+  write_image(arguments.output, shade(*appearance, inputs, progress_bar("Shading")));
+}
+
+}  // namespace
+
+void add_shade(CLI::App& parent) {
+  auto arguments = std::make_shared<Arguments>();
+  CLI::App* command = add_command(
+      parent, "shade", "Shade pictures of normals and tangents with a material, without drawing",
+      "sateen shade --normals jacket.normal.exr --tangents jacket.tangent.exr --material silk.ktx2 "
+      "-o jacket.exr");
+  command
+      ->add_option("--normals", arguments->normals,
+                   "View-space normals as stored, row 0 on top; zero is empty")
+      ->required();
+  command->add_option("--tangents", arguments->tangents,
+                      "View-space tangents, for materials that have a direction");
+  command->add_option(
+      "--positions", arguments->positions,
+      "View-space positions with the eye at the origin; without them the view is orthographic");
+  command->add_option("--occlusion", arguments->occlusion,
+                      "Ambient occlusion in the first channel, 1 is open");
+  command->add_option("--uv", arguments->uvs, "Texture coordinates, v up, for materials with textures");
+  command->add_option("--curvature", arguments->curvature,
+                      "Curvature in the first channel, positive where convex");
+  command->add_option("--material,-m", arguments->material, "AMC, MatCap picture or .json material")
+      ->required();
+  command->add_option("--env", arguments->environment,
+                      "Latitude-longitude picture that lights a \"layered\" material");
+  command->add_option("-o,--output", arguments->output, "The picture, RGBA")->required();
+  command->callback([arguments] { run(*arguments); });
+}
+
+}  // namespace sateen::cli

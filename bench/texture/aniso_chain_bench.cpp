@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: MIT
+// A 4096 x 4096 normal and anisotropy map to whole mip chains: everything, against the files alone. "io"
+// decodes both inputs and encodes files of the same sizes and samples as the result's, without filtering in
+// between.
+#include <cstdint>
+#include <filesystem>
+
+#include <benchmark/benchmark.h>
+
+#include "sateen/io/image_rows.h"
+#include "sateen/texture/lobe_files.h"
+#include "support/files.h"
+
+namespace {
+
+using namespace sateen;
+namespace fs = std::filesystem;
+
+constexpr int kSize = 4096;
+
+/// A weave with threads of 16 texels and some noise, as 8-bit PNG.
+class Maps {
+ public:
+  Maps() {
+    ImageRowWriter normal(folder_ / "normal.png", "normal.png", kSize, kSize, 3, RowSamples::u8);
+    ImageRowWriter aniso(folder_ / "aniso.png", "aniso.png", kSize, kSize, 3, RowSamples::u8);
+    std::vector<float> n(kSize * 3);
+    std::vector<float> a(kSize * 3);
+    std::uint32_t state = 1;
+    for (int y = 0; y < kSize; ++y) {
+      for (int x = 0; x < kSize; ++x) {
+        state = state * 1664525u + 1013904223u;
+        const double noise = static_cast<double>(state >> 8) / (1 << 24) * 0.04 - 0.02;
+        const LobeTexel t = texel(x, y, noise);
+        const Vec3 c = encode_anisotropy(t.s, AnisotropyEncoding::root);
+        for (int k = 0; k < 3; ++k) {
+          n[static_cast<std::size_t>(x * 3 + k)] = static_cast<float>(t.normal[k] / 2 + 0.5);
+          a[static_cast<std::size_t>(x * 3 + k)] = static_cast<float>(c[k]);
+        }
+      }
+      normal.write(n);
+      aniso.write(a);
+    }
+    normal.close();
+    aniso.close();
+  }
+
+  static LobeTexel texel(int x, int y, double noise) {
+    const bool over = ((x / 16) + (y / 16)) % 2 == 0;
+    const double across = ((over ? y : x) % 16 + 0.5) / 8 - 1;
+    const double along = ((over ? x : y) % 16 + 0.5) / 8 - 1;
+    Vec3 n(0.4 * along + noise, 0.7 * across - noise, 1);
+    if (!over) std::swap(n.x(), n.y());
+    return {n.normalized(), roughness_matrix({0.35 + noise, 0.12, over ? kPi / 2 + noise : noise})};
+  }
+
+  LobeMapFiles files() const {
+    LobeMapFiles files;
+    files.normals = folder_ / "normal.png";
+    files.anisotropy = folder_ / "aniso.png";
+    return files;
+  }
+  const test::TemporaryFolder& folder() const { return folder_; }
+
+ private:
+  test::TemporaryFolder folder_;
+};
+
+const Maps& maps() {
+  static const Maps maps;
+  return maps;
+}
+
+void report(benchmark::State& state) {
+  state.counters["Mtexel/s"] = benchmark::Counter(static_cast<double>(kSize) * kSize / 1e6,
+                                                  benchmark::Counter::kIsIterationInvariantRate);
+}
+
+void chain(benchmark::State& state, LobeOutput::Kind kind, MipKernel kernel, Bc7Effort effort) {
+  maps();
+  for (auto _ : state) {
+    LobeFileSource source(maps().files());
+    LobeOutput output;
+    output.kind = kind;
+    output.effort = effort;
+    output.zstd_level = 3;
+    ChainOptions options;
+    options.kernel = kernel;
+    write_lobe_chain(source, maps().folder() / "out.png", options, output);
+  }
+  report(state);
+}
+
+void io(benchmark::State& state) {
+  maps();
+  for (auto _ : state) {
+    for (const fs::path& path : {maps().files().normals, maps().files().anisotropy}) {
+      ImageRowReader reader(path);
+      std::vector<std::vector<float>> strips;
+      std::vector<float> strip(static_cast<std::size_t>(kSize) * 64 * 3);
+      ImageRowWriter writer(maps().folder() / "io_0.png", "io_0.png", kSize, kSize, 3, RowSamples::u8);
+      for (int y = 0; y < kSize; y += 64) {
+        reader.read(strip);
+        writer.write(strip);
+      }
+      writer.close();
+      // Rows of the smaller levels: the same texels, for the same kind of content.
+      for (int size = kSize / 2; size >= 1; size /= 2) {
+        ImageRowWriter level(maps().folder() / "io_n.png", "io_n.png", size, size, 3, RowSamples::u8);
+        for (int y = 0; y < size; ++y) {
+          level.write(std::span(strip).subspan(static_cast<std::size_t>(y % 64 * kSize * 3),
+                                               static_cast<std::size_t>(size * 3)));
+        }
+        level.close();
+      }
+    }
+  }
+  report(state);
+}
+
+class Memory : public LobeSource {
+ public:
+  Memory() : strip_(static_cast<std::size_t>(kSize) * 64) {
+    for (int i = 0; i < kSize * 64; ++i)
+      strip_[static_cast<std::size_t>(i)] = Maps::texel(i % kSize, i / kSize, 0.01);
+  }
+  int width() const override { return kSize; }
+  int height() const override { return kSize; }
+  void read(std::span<LobeTexel> out) override {
+    std::copy_n(strip_.begin(), static_cast<std::ptrdiff_t>(out.size()), out.begin());
+  }
+
+ private:
+  std::vector<LobeTexel> strip_;
+};
+
+class Nowhere : public LobeSink {
+ public:
+  void write(int level, std::span<const LobeRow> rows) override {
+    benchmark::DoNotOptimize(level);
+    benchmark::DoNotOptimize(rows.data());
+  }
+};
+
+void filter(benchmark::State& state, MipKernel kernel) {
+  for (auto _ : state) {
+    Memory source;
+    Nowhere sink;
+    ChainOptions options;
+    options.kernel = kernel;
+    filter_lobe_chain(source, sink, options);
+  }
+  report(state);
+}
+
+#define SATEEN_CHAIN(name, ...)               \
+  BENCHMARK_CAPTURE(chain, name, __VA_ARGS__) \
+      ->Unit(benchmark::kMillisecond)         \
+      ->UseRealTime()                         \
+      ->MeasureProcessCPUTime()               \
+      ->Iterations(1)
+
+BENCHMARK(io)->Unit(benchmark::kMillisecond)->UseRealTime()->MeasureProcessCPUTime()->Iterations(1);
+BENCHMARK_CAPTURE(filter, box, MipKernel::box)
+    ->Unit(benchmark::kMillisecond)
+    ->UseRealTime()
+    ->MeasureProcessCPUTime()
+    ->Iterations(1);
+BENCHMARK_CAPTURE(filter, kaiser, MipKernel::kaiser)
+    ->Unit(benchmark::kMillisecond)
+    ->UseRealTime()
+    ->Iterations(1);
+SATEEN_CHAIN(png8_box, LobeOutput::Kind::png8, MipKernel::box, Bc7Effort::normal);
+SATEEN_CHAIN(png8_kaiser, LobeOutput::Kind::png8, MipKernel::kaiser, Bc7Effort::normal);
+SATEEN_CHAIN(ktx2_plain, LobeOutput::Kind::ktx2, MipKernel::box, Bc7Effort::normal);
+SATEEN_CHAIN(ktx2_bc7_fast, LobeOutput::Kind::ktx2_blocks, MipKernel::box, Bc7Effort::fast);
+SATEEN_CHAIN(ktx2_bc7_normal, LobeOutput::Kind::ktx2_blocks, MipKernel::box, Bc7Effort::normal);
+
+}  // namespace

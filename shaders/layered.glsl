@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: MIT
+// A diffuse base, a GGX reflection and a layer of fuzz under lamps and surroundings (src/brdf/layered.h, which it follows
+// line by line); the ambient terms are Patry's, "Samurai Shading" (2020), by table or as printed.
+// needs: surface.glsl hemisphere_table.glsl environment.glsl punctual.glsl fibre_diffuse.glsl ggx.glsl fuzz.glsl
+
+// Layers a material does not have are left out at compile time: layered_no_*.glsl and layered_slides.glsl in front of this
+// file define the switches otherwise.
+#ifndef LAYERED_REFLECTION
+#define LAYERED_REFLECTION true
+#endif
+#ifndef LAYERED_COMPENSATION
+#define LAYERED_COMPENSATION true
+#endif
+#ifndef LAYERED_FUZZ
+#define LAYERED_FUZZ true
+#endif
+#ifndef LAYERED_FUZZ_SLIDES
+#define LAYERED_FUZZ_SLIDES false
+#endif
+#ifndef LAYERED_SIMPLE_FUZZ
+#define LAYERED_SIMPLE_FUZZ true
+#endif
+
+uniform vec3 base_colour;
+uniform bool base_fibres;
+uniform vec2 base_lobe;  // the fibres' light is (|l across the fibre| + x n.l) y
+uniform vec3 base_moments;  // of that over the hemisphere: xx, yy, zz
+uniform float base_moment_z;
+uniform vec2 base_axis;  // cosine and sine of the fibres' azimuth, as every *_axis here
+uniform float simple_fuzziness;
+
+uniform float ggx_alpha_t;
+uniform float ggx_alpha_b;
+uniform vec2 ggx_axis;
+uniform vec3 ggx_f0;
+uniform int ggx_lobe_samples;  // 0: no environment map to reflect
+uniform float ggx_mean_albedo;
+uniform sampler2D ggx_albedo_table;  // scale, bias
+
+uniform float fuzz_density;
+uniform float fuzz_alpha;
+uniform int fuzz_phase_kind;
+uniform vec2 fuzz_schlick;
+uniform vec3 fuzz_fibre;
+uniform vec2 fuzz_axis;
+uniform vec3 fuzz_colour;
+uniform vec4 fuzz_visibility;
+uniform float fuzz_passing_albedo;  // Q
+uniform float fuzz_down_albedo;     // R
+uniform float fuzz_down_weight;     // 0 leaves P_s out
+uniform vec3 fuzz_down_low;
+uniform vec3 fuzz_down_high;
+uniform sampler2D fuzz_scattering_table;  // P_s of a light; response of a view over G~
+uniform sampler2D fuzz_gaze_table;        // where a view's fuzz looks
+
+const float LAYERED_LOWEST_VIEW = 1e-3;
+const float SIMPLE_DENSITY = 0.5;
+const float SIMPLE_ALPHA = 0.95;
+const float SIMPLE_COLOUR = 5.0;
+
+// Into the frame whose x axis lies at the azimuth of `axis`, and back out of it.
+vec3 layered_turned(vec3 w, vec2 axis) {
+  return vec3(dot(w.xy, axis), axis.x * w.y - axis.y * w.x, w.z);
+}
+vec3 layered_back(vec3 w, vec2 axis) {
+  return layered_turned(w, vec2(axis.x, -axis.y));
+}
+
+float layered_albedo(vec3 w) {
+  vec2 albedo = hemisphere_table(ggx_albedo_table, w).xy;
+  return albedo.x + albedo.y;
+}
+
+float layered_scattered_down(vec3 light) {
+  if (LAYERED_FUZZ_SLIDES) return fuzz_scattered_down_fit(fuzz_down_low, fuzz_down_high, light.z, dot(light, fuzz_fibre));
+  return hemisphere_table(fuzz_scattering_table, layered_turned(light, fuzz_axis)).x;
+}
+
+vec3 layered_simple_fuzz(vec3 light, vec3 view) {
+  float x = fuzz_wrapped_cosine(light.z);
+  if (x <= 0.0) return vec3(0.0);
+  float phase = fuzz_phase(FUZZ_SGGX, SIMPLE_ALPHA, vec2(0.0), vec3(0.0, 0.0, 1.0), light, view);
+  return base_colour * (SIMPLE_COLOUR * phase * fuzz_layer(SIMPLE_DENSITY, x, view.z));
+}
+
+// What a lamp of unit irradiance in direction `light` sends towards `view`.
+vec3 layered_direct(vec3 light, vec3 view) {
+  vec3 base = vec3(0.0);
+  if (light.z > 0.0) {
+    float diffuse = base_fibres ? fibre_lobe(layered_turned(light, base_axis), base_lobe) : light.z * 0.3183098861837907;
+    base = base_colour * diffuse;
+  }
+  if (LAYERED_SIMPLE_FUZZ) base = mix(base, layered_simple_fuzz(light, view), simple_fuzziness);
+  if (LAYERED_REFLECTION && light.z > 0.0) {
+    vec3 u = layered_turned(light, ggx_axis);
+    vec3 v = layered_turned(view, ggx_axis);
+    vec3 f = ggx_brdf(vec2(ggx_alpha_t, ggx_alpha_b), ggx_f0, u, v);
+    if (LAYERED_COMPENSATION) f += ggx_multiple_scattering(ggx_f0, layered_albedo(u), layered_albedo(v), ggx_mean_albedo);
+    base += f * light.z;
+  }
+  if (!LAYERED_FUZZ) return base;
+  if (light.z <= 0.0) return vec3(0.0);
+  float passing = exp(-fuzz_density / light.z);
+  float down = fuzz_down_weight > 0.0 ? layered_scattered_down(light) : 0.0;
+  vec3 attenuation = (passing + fuzz_colour * ((1.0 - passing) * down)) * exp(-fuzz_density / view.z);
+  float phase = fuzz_phase(fuzz_phase_kind, fuzz_alpha, fuzz_schlick, fuzz_fibre, light, view);
+  return base * attenuation + fuzz_colour * (phase * fuzz_layer(fuzz_density, light.z, view.z));
+}
+
+vec3 layered_diffuse_surroundings(mat3 frame) {
+  if (!base_fibres) return base_colour * harmonics_lobe(frame[2], vec3(1.0, 0.6666666667, 0.25));
+  vec3 fibre = frame * vec3(base_axis, 0.0);
+  vec3 across = frame * vec3(-base_axis.y, base_axis.x, 0.0);
+  return base_colour * (environment_harmonics[0] + harmonics_linear(frame[2]) * base_moment_z +
+                        harmonics_quadratic(fibre) * base_moments.x + harmonics_quadratic(across) * base_moments.y +
+                        harmonics_quadratic(frame[2]) * base_moments.z);
+}
+
+vec3 layered_reflected_surroundings(mat3 frame, vec3 view) {
+  vec2 alpha = vec2(ggx_alpha_t, ggx_alpha_b);
+  bool along = alpha.x >= alpha.y;
+  vec2 axis = along ? vec2(1.0, 0.0) : vec2(0.0, 1.0);
+  float minor = min(alpha.x, alpha.y);
+  float count = float(ggx_lobe_samples);
+  float extra = max(alpha.x, alpha.y) * max(alpha.x, alpha.y) - minor * minor;
+  float blur = sqrt(minor * minor + extra / (count * count));
+  vec3 v = layered_turned(view, ggx_axis);
+  float view_masking = 1.0 + lambda_ggx(alpha, v);
+  vec3 sum = vec3(0.0);
+  float total = 0.0;
+  for (int i = 0; i < ggx_lobe_samples; ++i) {
+    float c = (2.0 * float(i) + 1.0) / count - 1.0;
+    vec3 h = normalize(vec3(sqrt(extra) * c * inversesqrt(1.0 - c * c) * axis, 1.0));
+    float cosine = dot(v, h);
+    vec3 light = 2.0 * cosine * h - v;
+    if (cosine <= 0.0 || light.z <= 1e-4) continue;
+    float weight = cosine / h.z * view_masking / (view_masking + lambda_ggx(alpha, light));
+    sum += weight * environment_radiance(frame * layered_back(light, ggx_axis), blur);
+    total += weight;
+  }
+  vec2 albedo = hemisphere_table(ggx_albedo_table, v).xy;
+  vec3 reflected = total > 0.0 ? sum / total * (ggx_f0 * albedo.x + albedo.y) : vec3(0.0);
+  if (LAYERED_COMPENSATION) {
+    vec3 lobe = ggx_multiple_scattering(ggx_f0, 0.0, albedo.x + albedo.y, ggx_mean_albedo);
+    vec3 bounces = lobe * (3.141592653589793 * (1.0 - ggx_mean_albedo));
+    reflected += bounces * harmonics_lobe(frame[2], vec3(1.0, 0.6666666667, 0.25));
+  }
+  return reflected;
+}
+
+vec3 layered_fuzz_surroundings(mat3 frame, vec3 view) {
+  float visibility = fuzz_visibility_fit(fuzz_visibility, fuzz_density, view.z);
+  if (LAYERED_FUZZ_SLIDES) {
+    return fuzz_colour * harmonics_lobe(frame[2], vec3(1.0, 0.5, 0.0)) * (visibility * (1.0 - layered_scattered_down(view)));
+  }
+  vec3 v = layered_turned(view, fuzz_axis);
+  vec3 gaze = hemisphere_table(fuzz_gaze_table, v).xyz;
+  float size = max(length(gaze), 1e-6);
+  vec3 direction = frame * layered_back(gaze / size, fuzz_axis);
+  float response = hemisphere_table(fuzz_scattering_table, v).y * visibility;
+  return fuzz_colour * harmonics_lobe(direction, vec3(1.0, size, size * size * size)) * response;
+}
+
+vec3 layered_surroundings(mat3 frame, vec3 view) {
+  vec3 base = layered_diffuse_surroundings(frame);
+  if (LAYERED_SIMPLE_FUZZ) {
+    float response = fuzz_visibility_fit(fuzz_visibility, SIMPLE_DENSITY, view.z) * 0.5;
+    vec3 fuzz = base_colour * harmonics_lobe(frame[2], vec3(1.0, 0.5, 0.0)) * (SIMPLE_COLOUR * response);
+    base = mix(base, fuzz, simple_fuzziness);
+  }
+  if (LAYERED_REFLECTION && ggx_lobe_samples > 0) base += layered_reflected_surroundings(frame, view);
+  if (!LAYERED_FUZZ) return base;
+  vec3 attenuation = fuzz_passing_albedo + fuzz_colour * (fuzz_down_weight * fuzz_down_albedo * (1.0 - fuzz_passing_albedo));
+  return base * attenuation * exp(-fuzz_density / view.z) + layered_fuzz_surroundings(frame, view);
+}
+
+vec3 layered(Surface s) {
+  mat3 frame = mat3(s.tangent, s.bitangent_sign * cross(s.normal, s.tangent), s.normal);
+  vec3 view = s.view * frame;
+  // Interpolated normals turn away from the eye at the rim.
+  if (view.z < LAYERED_LOWEST_VIEW) view = normalize(vec3(view.xy, LAYERED_LOWEST_VIEW));
+  vec3 sum = s.occlusion * layered_surroundings(frame, view);
+  for (int i = 0; i < light_count; ++i) {
+    vec3 direction;
+    vec3 irradiance = arriving_light(i, s.position, direction);
+    sum += irradiance * layered_direct(direction * frame, view);
+  }
+  return max(sum, 0.0);
+}

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+#include "sateen/brdf/hemisphere_table.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include "sateen/core/parallel.h"
+
+namespace sateen {
+
+Vec3 hemisphere_direction(const Vec2& square) {
+  const double x = (square.x() + square.y()) / 2;
+  const double y = (square.x() - square.y()) / 2;
+  return Vec3(x, y, 1 - std::abs(x) - std::abs(y)).normalized();
+}
+
+Vec2 hemisphere_square(const Vec3& direction) {
+  const double z = std::max(direction.z(), 0.0);
+  const double sum = std::abs(direction.x()) + std::abs(direction.y()) + z;
+  const double x = direction.x() / sum;
+  const double y = direction.y() / sum;
+  return {x + y, x - y};
+}
+
+HemisphereTable::HemisphereTable(int size, const std::function<Vec4(const Vec3&)>& f)
+    : size_(size), texels_(static_cast<std::size_t>(size) * static_cast<std::size_t>(size)) {
+  parallel_for(size, [&](int y) {
+    for (int x = 0; x < size; ++x) {
+      const Vec2 square(2.0 * x / (size - 1) - 1, 2.0 * y / (size - 1) - 1);
+      texels_[static_cast<std::size_t>(y * size + x)] = f(hemisphere_direction(square)).cast<float>();
+    }
+  });
+}
+
+Vec4 HemisphereTable::operator()(const Vec3& direction) const {
+  const Vec2 at = (hemisphere_square(direction) + Vec2::Ones()) / 2 * (size_ - 1);
+  const int x = std::clamp(static_cast<int>(at.x()), 0, size_ - 2);
+  const int y = std::clamp(static_cast<int>(at.y()), 0, size_ - 2);
+  const double fx = at.x() - x;
+  const double fy = at.y() - y;
+  const auto texel = [&](int i, int j) -> Vec4 {
+    return texels_[static_cast<std::size_t>((y + j) * size_ + x + i)].cast<double>();
+  };
+  return (1 - fy) * ((1 - fx) * texel(0, 0) + fx * texel(1, 0)) +
+         fy * ((1 - fx) * texel(0, 1) + fx * texel(1, 1));
+}
+
+std::shared_ptr<const TextureData> HemisphereTable::texture() const {
+  auto texture = std::make_shared<TextureData>();
+  texture->format = TextureData::Format::rgba32f;
+  texture->width = texture->height = size_;
+  std::vector<std::byte> bytes(texels_.size() * sizeof(Vec4f));
+  std::memcpy(bytes.data(), texels_.data(), bytes.size());
+  texture->levels.push_back(std::move(bytes));
+  return texture;
+}
+
+}  // namespace sateen

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "sateen/core/appearance.h"
+
+namespace sateen {
+
+/// Four values for every direction of the upper hemisphere, tabulated on a square by the hemi-octahedral map
+/// (no trigonometry in the shader) and read bilinearly. The first and last texels of a row lie on the
+/// horizon, and the middle of the square is the normal. shaders/hemisphere_table.glsl reads the same texels.
+class HemisphereTable {
+ public:
+  HemisphereTable() = default;
+  /// Calls `f` once a texel, in parallel. `size` is odd, so that one texel is the normal.
+  HemisphereTable(int size, const std::function<Vec4(const Vec3&)>& f);
+
+  int size() const { return size_; }
+  /// Directions below the horizon read the horizon. Texels are held in single precision, as the GPU does.
+  Vec4 operator()(const Vec3& direction) const;
+  /// rgba32f.
+  std::shared_ptr<const TextureData> texture() const;
+
+ private:
+  int size_ = 0;
+  std::vector<Vec4f> texels_;
+};
+
+/// Unit direction over a point of [-1, 1]^2, and back.
+Vec3 hemisphere_direction(const Vec2& square);
+Vec2 hemisphere_square(const Vec3& direction);
+
+}  // namespace sateen

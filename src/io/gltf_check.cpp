@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: MIT
+#include "sateen/io/gltf_check.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <fstream>
+#include <map>
+#include <string_view>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "sateen/core/error.h"
+#include "sateen/io/file.h"
+#include "sateen/io/mesh_material.h"
+
+namespace sateen {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using Size = std::uint64_t;
+
+// Extensions that change how positions are stored; a file that requires one of them cannot be read without
+// it.
+constexpr std::array<std::string_view, 3> kUnreadable = {"KHR_draco_mesh_compression",
+                                                         "EXT_meshopt_compression", "KHR_mesh_quantization"};
+
+[[noreturn]] void fail(const fs::path& path, const std::string& what) {
+  throw Error(fmt::format("{}: {}", path.string(), what));
+}
+
+struct Document {
+  json root;
+  Size binary = 0;  // length of the GLB's binary chunk
+};
+
+Document read_glb(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  const auto word = [&] {
+    std::array<unsigned char, 4> b{};
+    file.read(reinterpret_cast<char*>(b.data()), 4);
+    return static_cast<Size>(b[0]) | static_cast<Size>(b[1]) << 8 | static_cast<Size>(b[2]) << 16 |
+           static_cast<Size>(b[3]) << 24;
+  };
+  constexpr Size kGlb = 0x46546C67;
+  constexpr Size kJson = 0x4E4F534A;
+  constexpr Size kBinary = 0x004E4942;
+  const Size size = fs::file_size(path);
+  if (size < 20 || word() != kGlb) fail(path, "is not a GLB file");
+  if (const Size version = word(); version != 2)
+    fail(path, fmt::format("is glTF version {}, 2 is needed", version));
+  if (const Size length = word(); length > size) {
+    fail(path, fmt::format("is truncated: its header says {} bytes, it has {}", length, size));
+  }
+  const Size text_length = word();
+  if (word() != kJson || text_length > size - 20)
+    fail(path, "is truncated or no GLB: its JSON chunk is not whole");
+  std::string text(text_length, '\0');
+  file.read(text.data(), static_cast<std::streamsize>(text_length));
+  Document document{json::parse(text), 0};
+  if (20 + text_length + 8 <= size) {
+    const Size binary = word();
+    if (word() == kBinary) {
+      if (binary > size - 28 - text_length) fail(path, "is truncated: its binary chunk is not whole");
+      document.binary = binary;
+    }
+  }
+  return document;
+}
+
+Size element_size(const json& accessor) {
+  static const std::map<int, Size> kBytes = {{5120, 1}, {5121, 1}, {5122, 2},
+                                             {5123, 2}, {5125, 4}, {5126, 4}};
+  static const std::map<std::string, Size> kCounts = {{"SCALAR", 1}, {"VEC2", 2}, {"VEC3", 3}, {"VEC4", 4},
+                                                      {"MAT2", 4},   {"MAT3", 9}, {"MAT4", 16}};
+  return kBytes.at(accessor.at("componentType").get<int>()) *
+         kCounts.at(accessor.at("type").get<std::string>());
+}
+
+const json& list(const json& root, const char* key) {
+  static const json kNone = json::array();
+  return root.contains(key) ? root.at(key) : kNone;
+}
+
+Size check_buffers(const fs::path& path, const Document& document) {
+  Size total = 0;
+  for (const json& buffer : list(document.root, "buffers")) {
+    const Size claimed = buffer.at("byteLength").get<Size>();
+    Size there = document.binary;
+    if (buffer.contains("uri")) {
+      const std::string uri = buffer.at("uri").get<std::string>();
+      if (uri.starts_with("data:")) {
+        there = uri.size();
+      } else {
+        const fs::path beside = path.parent_path() / decoded_uri(uri);
+        std::error_code code;
+        there = fs::file_size(beside, code);
+        if (code) fail(path, fmt::format("needs the file {} beside it, which is missing", beside.string()));
+      }
+    }
+    if (claimed > there) {
+      fail(path, fmt::format("is truncated: a buffer should have {} bytes and has {}", claimed, there));
+    }
+    total += claimed;
+  }
+  return total;
+}
+
+void check_accessors(const fs::path& path, const json& root, Size total) {
+  const json& buffers = list(root, "buffers");
+  const json& views = list(root, "bufferViews");
+  for (const json& view : views) {
+    const Size buffer = buffers.at(view.at("buffer").get<std::size_t>()).at("byteLength").get<Size>();
+    const Size offset = view.value("byteOffset", Size{0});
+    const Size length = view.at("byteLength").get<Size>();
+    if (offset > buffer || length > buffer - offset)
+      fail(path, "has a buffer view that reaches past its buffer");
+  }
+  for (const json& accessor : list(root, "accessors")) {
+    const Size count = accessor.at("count").get<Size>();
+    const Size size = element_size(accessor);
+    if (count > total) fail(path, fmt::format("claims {} elements in {} bytes", count, total));
+    if (!accessor.contains("bufferView") || count == 0) continue;
+    const json& view = views.at(accessor.at("bufferView").get<std::size_t>());
+    const Size length = view.at("byteLength").get<Size>();
+    const Size stride = view.value("byteStride", size);
+    const Size offset = accessor.value("byteOffset", Size{0});
+    if (stride > 256 || offset > length || (count - 1) * stride + size > length - offset) {
+      fail(path, "has an accessor that reaches past its buffer view");
+    }
+  }
+}
+
+}  // namespace
+
+void check_gltf(const fs::path& path) {
+  try {
+    const Document document =
+        extension_of(path) == ".glb" ? read_glb(path) : Document{json::parse(read_text(path)), 0};
+    const std::string version = document.root.at("asset").at("version").get<std::string>();
+    if (!version.starts_with("2")) fail(path, fmt::format("is glTF version {}, 2 is needed", version));
+    for (const json& extension : list(document.root, "extensionsRequired")) {
+      if (std::ranges::find(kUnreadable, extension.get<std::string>()) != kUnreadable.end()) {
+        fail(path,
+             fmt::format("requires the glTF extension {}, which cannot be read; save it without compression",
+                         extension.get<std::string>()));
+      }
+    }
+    check_accessors(path, document.root, check_buffers(path, document));
+  } catch (const json::exception& error) {
+    fail(path, fmt::format("is not valid glTF, or is truncated: {}", error.what()));
+  } catch (const std::out_of_range&) {
+    fail(path, "is not valid glTF: it has an accessor of unknown type");
+  }
+}
+
+}  // namespace sateen

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <span>
+
+#include "sateen/core/image.h"
+
+namespace sateen {
+
+/// Decodes the rows of `region` of the grey or RGB JPEG file `bytes`, sample k becoming values[k]; nothing is
+/// turned. libjpeg fills what is missing or broken with grey and only warns, and OpenImageIO passes few of
+/// its warnings on; here each one that means lost pixels, anywhere in the file, is an Error naming `path`.
+/// Padding between the picture and its end marker is harmless.
+Image decode_jpeg(const std::filesystem::path& path, std::span<const std::byte> bytes,
+                  const PixelRect& region, std::span<const float, 256> values);
+
+}  // namespace sateen

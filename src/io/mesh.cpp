@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: MIT
+#include "sateen/io/mesh.h"
+
+#include <algorithm>
+
+#include <assimp/Importer.hpp>
+#include <assimp/scene.h>
+#include <fmt/format.h>
+
+#include "sateen/core/error.h"
+#include "sateen/io/file.h"
+#include "sateen/io/gltf_check.h"
+#include "sateen/io/mesh_clean.h"
+#include "sateen/io/mesh_material.h"
+#include "sateen/io/mesh_merge.h"
+#include "sateen/io/ply.h"
+
+namespace sateen {
+namespace {
+
+namespace fs = std::filesystem;
+
+[[noreturn]] void fail(const fs::path& path, const std::string& what) {
+  throw Error(fmt::format("{}: {}", path.string(), what));
+}
+
+Model read_ply_model(const fs::path& path) {
+  Model model;
+  model.mesh = read_ply(path);
+  for (std::size_t i = 0; i < model.mesh.positions.size(); ++i) {
+    if (!model.mesh.positions[i].allFinite())
+      fail(path, fmt::format("vertex {} has a position that is not finite", i));
+  }
+  for (std::size_t i = 0; i < model.mesh.uvs.size(); ++i) {
+    if (!model.mesh.uvs[i].allFinite()) {
+      fail(path, fmt::format("vertex {} has texture coordinates that are not finite", i));
+    }
+  }
+  clean_mesh(model.mesh, false);
+  model.materials.emplace_back().name = "default";
+  model.mesh.material_names = {"default"};
+  return model;
+}
+
+// No post-processing: assimp's steps trust the indices of the file, and its joining of vertices takes minutes
+// and gigabytes on millions of triangles. It gives every corner of an OBJ file a vertex of its own, which is
+// why those are joined here.
+Model read_with_assimp(const fs::path& path, bool join) {
+  Assimp::Importer importer;
+  const aiScene* scene = importer.ReadFile(path.string(), 0);
+  if (scene == nullptr) fail(path, fmt::format("cannot be read as a mesh: {}", importer.GetErrorString()));
+  if (scene->mRootNode == nullptr) fail(path, "has no triangles");
+  check_scene(*scene, path);
+  MergedMesh merged = merge_scene(*scene);
+  Model model;
+  model.mesh = std::move(merged.mesh);
+  clean_mesh(model.mesh, join);
+  for (const unsigned int index : merged.materials) {
+    model.materials.push_back(index < scene->mNumMaterials
+                                  ? read_material(*scene, *scene->mMaterials[index], path)
+                                  : MeshMaterial());
+    model.mesh.material_names.push_back(model.materials.back().name);
+  }
+  return model;
+}
+
+}  // namespace
+
+Model read_model(const fs::path& path) {
+  const std::string extension = extension_of(path);
+  std::error_code code;
+  if (!fs::exists(path, code)) fail(path, "no such file");
+  if (fs::is_directory(path, code)) fail(path, "is a folder, a mesh file is needed");
+  const bool gltf = extension == ".glb" || extension == ".gltf";
+  if (!gltf && extension != ".obj" && extension != ".ply") {
+    fail(path, "is not a mesh that can be read; OBJ, PLY, GLB or glTF is needed");
+  }
+  if (gltf) check_gltf(path);
+  Model model = extension == ".ply" ? read_ply_model(path) : read_with_assimp(path, extension == ".obj");
+  if (model.mesh.triangles.empty()) fail(path, "has no triangles");
+  return model;
+}
+
+}  // namespace sateen

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: MIT
+#include "sateen/matcap/batch.h"
+
+#include <atomic>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "sateen/core/error.h"
+#include "sateen/core/parallel.h"
+#include "sateen/matcap/decomposition_file.h"
+#include "sateen/matcap/matcap_picture.h"
+
+namespace sateen {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// What an output depends on besides the input, as text to compare.
+std::string signature_of(const DecomposeFileOptions& options) {
+  std::string text = fmt::format("space={} outliers={} map={}", static_cast<int>(options.decompose.space),
+                                 static_cast<int>(options.decompose.outliers), options.decompose.map_size);
+  for (const Part part : kParts) {
+    for (const Region& r : options.decompose.regions[static_cast<std::size_t>(part)]) {
+      text += fmt::format(" {}={},{},{},{}", name_of(part), r.x, r.y, r.width, r.height);
+    }
+  }
+  if (options.disc)
+    text += fmt::format(" disc={},{},{}", options.disc->x, options.disc->y, options.disc->radius);
+  return text;
+}
+
+std::map<std::string, std::string> provenance_of(const fs::path& input, const DecomposeFileOptions& options) {
+  return {{"source", input.filename().string()},
+          {"source_bytes", std::to_string(fs::file_size(input))},
+          {"options", signature_of(options)},
+          {"program", options.program}};
+}
+
+bool is_there(const fs::path& input, const fs::path& output, const DecomposeFileOptions& options) {
+  std::error_code code;
+  if (!fs::exists(output, code)) return false;
+  try {
+    return read_matcap(output).provenance == provenance_of(input, options);
+  } catch (const Error&) {
+    return false;  // of another kind or damaged: made anew
+  }
+}
+
+}  // namespace
+
+MatcapDecomposition decompose_file(const fs::path& input, const fs::path& output,
+                                   const DecomposeFileOptions& options) {
+  const MatcapPicture picture = read_matcap_picture(input, options.disc);
+  MatcapDecomposition matcap = decompose(picture.image, picture.disc, options.decompose, input.string());
+  matcap.provenance = provenance_of(input, options);
+  write_matcap(output, matcap);
+  return matcap;
+}
+
+std::vector<BatchEntry> decompose_files(std::span<const fs::path> inputs, const fs::path& folder,
+                                        const DecomposeFileOptions& options, bool anew,
+                                        const Progress& progress) {
+  std::vector<BatchEntry> entries;
+  std::set<fs::path> names;
+  for (const fs::path& input : inputs) {
+    const fs::path output = folder / (input.stem().string() + ".ktx2");
+    if (!names.insert(output).second) {
+      throw Error(fmt::format("{}: another input would also become {}; give them different names or folders",
+                              input.string(), output.string()));
+    }
+    entries.push_back({input, output, false, {}});
+  }
+  std::error_code code;
+  fs::create_directories(folder, code);
+  if (code) throw Error(fmt::format("{}: the folder cannot be made: {}", folder.string(), code.message()));
+  std::atomic<int> done = 0;
+  const int count = static_cast<int>(entries.size());
+  parallel_for(count, [&](int i) {
+    BatchEntry& entry = entries[static_cast<std::size_t>(i)];
+    try {
+      if (!anew && is_there(entry.input, entry.output, options)) {
+        entry.reused = true;
+      } else {
+        decompose_file(entry.input, entry.output, options);
+      }
+    } catch (const Error& error) {
+      entry.failure = error.what();
+    }
+    report(progress, static_cast<double>(++done) / count);
+  });
+  return entries;
+}
+
+}  // namespace sateen

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+#include "sateen/matcap/matcap_picture.h"
+
+#include "sateen/io/image.h"
+
+namespace sateen {
+
+MatcapPicture read_matcap_picture(const std::filesystem::path& path, const std::optional<Disc>& disc) {
+  const Image picture = read_image(path);
+  MatcapPicture result;
+  if (disc) {
+    check_disc(*disc, picture.width, picture.height, path.string());
+    result.disc = *disc;
+  } else {
+    result.disc = find_disc(picture, path.string());
+  }
+  result.image = with_channels(picture, 3);
+  if (picture.channels == 2 || picture.channels == 4) {
+    for (int y = 0; y < picture.height; ++y) {
+      for (int x = 0; x < picture.width; ++x) {
+        const float alpha = picture.at(x, y, picture.channels - 1);
+        if (alpha > 0) result.image.set_rgb(x, y, picture.rgb(x, y) / alpha);
+      }
+    }
+  }
+  return result;
+}
+
+}  // namespace sateen

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <filesystem>
+#include <optional>
+
+#include "sateen/core/image.h"
+#include "sateen/matcap/sphere_disc.h"
+
+namespace sateen {
+
+/// A MatCap as a file holds it, and where its sphere is.
+struct MatcapPicture {
+  Image image;  ///< linear light, 3 channels; where there was alpha, colour is divided by it
+  Disc disc;
+};
+
+/// Reads any picture; the sphere is found unless `disc` says where it is. Throws Error naming the file when
+/// it cannot be read, is animated, CMYK or not finite, or when it shows no sphere or `disc` does not fit.
+MatcapPicture read_matcap_picture(const std::filesystem::path& path, const std::optional<Disc>& disc = {});
+
+}  // namespace sateen

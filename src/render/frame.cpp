@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+#include "sateen/render/frame.h"
+
+namespace sateen {
+namespace {
+
+Vec3 xyz(const Image& image, int x, int y) {
+  return image.rgb(x, y).cast<double>();
+}
+
+}  // namespace
+
+std::optional<Surface> surface_at(const Frame& frame, int x, int y) {
+  const SurfaceImages& images = *frame.surfaces;
+  const int material = static_cast<int>(images.position.at(x, y, 3));
+  if (material == 0) return std::nullopt;
+  Surface surface;
+  surface.position = xyz(images.position, x, y);
+  surface.material = material - 1;
+  surface.normal = xyz(images.normal, x, y);
+  surface.occlusion = images.normal.at(x, y, 3);
+  surface.tangent = xyz(images.tangent, x, y);
+  surface.bitangent_sign = images.tangent.at(x, y, 3);
+  surface.eye_normal = xyz(images.eye_normal, x, y);
+  surface.tangent_angle = images.eye_normal.at(x, y, 3);
+  surface.uv = Vec2(images.uv_and_curvature.at(x, y, 0), images.uv_and_curvature.at(x, y, 1));
+  surface.curvature = images.uv_and_curvature.at(x, y, 2);
+  surface.view = frame.perspective ? Vec3(-surface.position.normalized()) : Vec3(0, 0, 1);
+  return surface;
+}
+
+}  // namespace sateen

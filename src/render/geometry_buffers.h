@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "sateen/gpu/handle.h"
+#include "sateen/render/scene.h"
+
+namespace sateen {
+
+/// A mesh on the GPU, its triangles sorted by material.
+class GeometryBuffers {
+ public:
+  explicit GeometryBuffers(const Scene& scene);
+
+  /// Names of the vertex attributes by location, as shaders/surface.vert spells them.
+  static std::span<const std::string> attributes();
+
+  /// Draws the triangles of one material with the program in use.
+  void draw(std::size_t material) const;
+
+  /// Whether front faces wind counter-clockwise. Told from the normals, because files disagree.
+  bool counter_clockwise() const { return counter_clockwise_; }
+
+ private:
+  gpu::Handle vertex_array_;
+  std::vector<gpu::Handle> buffers_;
+  std::vector<std::size_t> first_index_;  ///< per material, and the end
+  bool counter_clockwise_ = true;
+};
+
+}  // namespace sateen

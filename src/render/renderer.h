@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "sateen/core/progress.h"
+#include "sateen/render/camera.h"
+#include "sateen/render/frame.h"
+#include "sateen/render/scene.h"
+
+namespace sateen {
+
+struct PictureSettings {
+  int width = 1024;
+  int height = 1024;
+  int samples = 3;                       ///< samples x samples in each pixel, averaged in linear light
+  std::optional<Vec3f> background = {};  ///< linear; nothing is transparent
+  bool surfaces = false;                 ///< fill Frame::surfaces too
+  int tile = 4096;  ///< largest side, in samples, drawn at once; more is put together from tiles
+};
+
+/// A scene on the GPU, ready to be drawn from any view. It lives in the OpenGL context that is current when
+/// it is made (gpu::Context), and must be used and die while that one is current.
+class Renderer {
+ public:
+  /// Throws Error when a material needs what the mesh does not have, and when the driver cannot hold the
+  /// scene.
+  explicit Renderer(const Scene& scene);
+  ~Renderer();
+  Renderer(Renderer&&) noexcept;
+  Renderer& operator=(Renderer&&) noexcept;
+
+  /// One picture.
+  Frame render(const View& view, const PictureSettings& settings, const Progress& progress = {}) const;
+
+  /// Draws into whatever framebuffer is bound, over what is in it, with depth test; clearing is the caller's.
+  void draw(const View& view) const;
+
+ private:
+  struct Data;
+  std::unique_ptr<Data> data_;
+};
+
+}  // namespace sateen

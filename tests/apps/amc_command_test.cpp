@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: MIT
+#include <cmath>
+#include <fstream>
+#include <limits>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "sateen/core/disc.h"
+#include "sateen/io/file.h"
+#include "sateen/io/image.h"
+#include "support/files.h"
+
+namespace sateen {
+namespace {
+
+using nlohmann::json;
+using test::run_program;
+using testing::HasSubstr;
+
+const std::string kSilk = (test::examples() / "silk").string();
+
+/// Copies of the first frames of the shipped capture, to be spoilt.
+std::filesystem::path copied_frames(const test::TemporaryFolder& folder, int count) {
+  const auto frames = folder / "frames";
+  std::filesystem::create_directory(frames);
+  for (int i = 0; i < count; ++i) {
+    const std::string name = fmt::format("frame_{:03}.png", i * 128 / count);
+    std::filesystem::copy_file(test::examples() / "silk" / name, frames / fmt::format("frame_{:03}.png", i));
+  }
+  return frames;
+}
+
+TEST(AmcCommand, TheShippedSilkIsInvariantUnderHalfATurnOnly) {
+  const test::TemporaryFolder folder;
+  const std::string amc = (folder / "silk.ktx2").string();
+  const auto built = run_program(fmt::format("amc build {} -o {} --size 64 --slices 32 --json", kSilk, amc));
+  ASSERT_EQ(built.exit_code, 0) << built.output;
+  const json report = json::parse(built.output);
+  EXPECT_EQ(report["symmetry"], 2);
+  EXPECT_GT(report["similarities"][1]["psnr"], 40);
+  EXPECT_LT(report["similarities"][3]["psnr"], 25);
+
+  const json info = json::parse(run_program(fmt::format("amc info {} --json", amc)).output);
+  EXPECT_EQ(info["size"], 64);
+  EXPECT_EQ(info["slices"], 32);
+  EXPECT_EQ(info["symmetry"], 2);
+  EXPECT_EQ(info["isotropic"], false);
+  EXPECT_EQ(info["encoding"], "srgb8");
+  EXPECT_EQ(info["bytes"], std::filesystem::file_size(amc));
+}
+
+TEST(AmcCommand, FullResolutionSlicesEqualTheFramesTheyCameFrom) {
+  // Slice 2f of the R = 2 table is the mean of frames f and f + 64, to 8-bit rounding.
+  const test::TemporaryFolder folder;
+  const std::string slices = (folder / "slices").string();
+  ASSERT_EQ(run_program(fmt::format("amc build {} -o {} --slices 64", kSilk, slices)).exit_code, 0);
+  for (const int f : {0, 17, 40}) {
+    const Image slice = read_image(fmt::format("{}/slice_{:03}.png", slices, f));
+    const Image a = read_image(fmt::format("{}/frame_{:03}.png", kSilk, f));
+    const Image b = read_image(fmt::format("{}/frame_{:03}.png", kSilk, f + 64));
+    for (int y = 0; y < 128; ++y) {
+      for (int x = 0; x < 128; ++x) {
+        if (!inside_disc(x, y, 128)) continue;
+        for (int c = 0; c < 3; ++c)
+          EXPECT_NEAR(slice.at(x, y, c), (a.at(x, y, c) + b.at(x, y, c)) / 2, 0.005);
+      }
+    }
+  }
+}
+
+TEST(AmcCommand, ConvertsToAFolderAndBackWithoutLoss) {
+  const test::TemporaryFolder folder;
+  const std::string root = folder.path().string();
+  ASSERT_EQ(
+      run_program(fmt::format("amc build {} -o {}/a.ktx2 --size 32 --slices 16", kSilk, root)).exit_code, 0);
+  ASSERT_EQ(run_program(fmt::format("amc convert {0}/a.ktx2 -o {0}/slices", root)).exit_code, 0);
+  ASSERT_EQ(run_program(fmt::format("amc convert {0}/slices -o {0}/b.ktx2", root)).exit_code, 0);
+  EXPECT_EQ(read_bytes(folder / "a.ktx2"), read_bytes(folder / "b.ktx2"));
+}
+
+TEST(AmcCommand, TheThreadCountDoesNotChangeTheBytes) {
+  const test::TemporaryFolder folder;
+  for (const int threads : {1, 2}) {
+    ASSERT_EQ(run_program(fmt::format("amc build {} -o {}/{}.ktx2 --size 32 --slices 24 --threads {}", kSilk,
+                                      folder.path().string(), threads, threads))
+                  .exit_code,
+              0);
+  }
+  EXPECT_EQ(read_bytes(folder / "1.ktx2"), read_bytes(folder / "2.ktx2"));
+}
+
+TEST(AmcCommand, DrawsTheSheetAndTheIsotropicMatCap) {
+  const test::TemporaryFolder folder;
+  const std::string root = folder.path().string();
+  ASSERT_EQ(
+      run_program(fmt::format("amc build {} -o {}/a.ktx2 --size 64 --slices 32", kSilk, root)).exit_code, 0);
+  EXPECT_EQ(run_program(fmt::format("amc slices {0}/a.ktx2 -o {0}/sheet.png", root)).exit_code, 0);
+  EXPECT_GT(read_image(folder / "sheet.png").width, 900);
+  EXPECT_EQ(run_program(fmt::format("amc isotropic {0}/a.ktx2 -o {0}/matcap.exr", root)).exit_code, 0);
+  EXPECT_EQ(read_image(folder / "matcap.exr").width, 64);
+}
+
+TEST(AmcCommand, NoFramesAndOneFrameAreRefused) {
+  const test::TemporaryFolder folder;
+  const std::string output = (folder / "x.ktx2").string();
+  const auto none = run_program(fmt::format("amc build {} -o {}", folder.path().string(), output));
+  EXPECT_EQ(none.exit_code, 1);
+  EXPECT_THAT(none.output, HasSubstr(".png"));
+  const auto one = run_program(fmt::format("amc build {}/frame_000.png -o {}", kSilk, output));
+  EXPECT_EQ(one.exit_code, 1);
+  EXPECT_THAT(one.output, HasSubstr("1 frame"));
+  EXPECT_FALSE(std::filesystem::exists(output));
+}
+
+TEST(AmcCommand, ACorruptFrameIsNamedAndTheRestNotLostWithSkipBad) {
+  const test::TemporaryFolder folder;
+  const auto frames = copied_frames(folder, 16);
+  std::filesystem::resize_file(frames / "frame_007.png", 5000);
+  const std::string output = (folder / "x.ktx2").string();
+  const std::string command = fmt::format("amc build {} -o {} --size 32 --slices 8", frames.string(), output);
+  const auto refused = run_program(command);
+  EXPECT_EQ(refused.exit_code, 1);
+  EXPECT_THAT(refused.output, HasSubstr("frame_007.png"));
+  EXPECT_FALSE(std::filesystem::exists(output));
+  const auto skipped = run_program(command + " --skip-bad");
+  EXPECT_EQ(skipped.exit_code, 0) << skipped.output;
+  EXPECT_THAT(skipped.output, HasSubstr("frame_007.png"));
+}
+
+TEST(AmcCommand, ANaNInAFrameIsNamed) {
+  const test::TemporaryFolder folder;
+  const auto frames = folder / "frames";
+  std::filesystem::create_directory(frames);
+  for (int i = 0; i < 6; ++i) {
+    Image image(16, 16, 3, 0.5f);
+    if (i == 4) image.at(7, 9, 1) = std::numeric_limits<float>::quiet_NaN();
+    write_image(frames / fmt::format("{}.exr", i), image);
+  }
+  const auto result =
+      run_program(fmt::format("amc build {} -o {}/x.ktx2", frames.string(), folder.path().string()));
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_THAT(result.output, HasSubstr("4.exr"));
+  EXPECT_THAT(result.output, HasSubstr("(7, 9)"));
+}
+
+TEST(AmcCommand, TruncatedAndLyingFilesAreRefused) {
+  const test::TemporaryFolder folder;
+  const auto path = folder / "x.ktx2";
+  ASSERT_EQ(
+      run_program(fmt::format("amc build {} -o {} --size 16 --slices 8", kSilk, path.string())).exit_code, 0);
+  auto bytes = read_bytes(path);
+  write_bytes(folder / "short.ktx2", std::span(bytes).first(bytes.size() * 2 / 3));
+  const auto truncated = run_program(fmt::format("amc info {}/short.ktx2", folder.path().string()));
+  EXPECT_EQ(truncated.exit_code, 1);
+  EXPECT_THAT(truncated.output, HasSubstr("short.ktx2"));
+  // pixelWidth, pixelHeight and pixelDepth stand at byte 20: 2^14 x 2^13 x 2^13 texels.
+  for (const std::size_t at : {20u, 24u, 28u}) {
+    bytes[at] = std::byte{0};
+    bytes[at + 1] = std::byte{static_cast<unsigned char>(at == 20 ? 0x40 : 0x20)};
+  }
+  write_bytes(folder / "huge.ktx2", bytes);
+  EXPECT_EQ(run_program(fmt::format("amc info {}/huge.ktx2", folder.path().string())).exit_code, 1);
+}
+
+TEST(AmcCommand, AnOutputThatCannotBeWrittenIsNamed) {
+  const auto result =
+      run_program(fmt::format("amc build {} -o /no/such/folder/x.ktx2 --size 16 --slices 4", kSilk));
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_THAT(result.output, HasSubstr("/no/such/folder"));
+}
+
+}  // namespace
+}  // namespace sateen

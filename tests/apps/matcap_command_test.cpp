@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: MIT
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "sateen/io/file.h"
+#include "sateen/matcap/bake.h"
+#include "support/matcaps.h"
+
+namespace sateen {
+namespace {
+
+using nlohmann::json;
+using test::run_program;
+using testing::HasSubstr;
+
+/// A shipped MatCap, shrunk, as a file.
+std::string written(const test::TemporaryFolder& folder, const std::string& name,
+                    const std::string& extension = ".exr") {
+  const auto path = folder / (name + extension);
+  write_image(path, test::example_matcap(name, 96));
+  return path.string();
+}
+
+TEST(MatcapCommand, DecomposeInfoAndBakeGiveTheInputBack) {
+  const test::TemporaryFolder folder;
+  const std::string input = written(folder, "lead", ".png");
+  const std::string matcap = (folder / "lead.ktx2").string();
+  ASSERT_EQ(run_program(fmt::format("matcap decompose {} -o {}", input, matcap)).exit_code, 0);
+  const json info = json::parse(run_program(fmt::format("matcap info {} --json", matcap)).output);
+  EXPECT_GT(info["low"]["variance"], info["high"]["variance"]);
+  EXPECT_EQ(info["low"]["base_color"].size(), 3U);
+  EXPECT_EQ(info["width"], 96);
+  EXPECT_EQ(info["provenance"]["source"], "lead.png");
+  const std::string baked = (folder / "baked.png").string();
+  ASSERT_EQ(run_program(fmt::format("matcap bake {} -o {}", matcap, baked)).exit_code, 0);
+  EXPECT_GT(psnr_on_disc(read_image(baked), read_image(input), inscribed_disc(96, 96)), 50);
+}
+
+TEST(MatcapCommand, BakesEditsLayersAndEnvironments) {
+  const test::TemporaryFolder folder;
+  const std::string matcap = (folder / "jade.ktx2").string();
+  ASSERT_EQ(run_program(fmt::format("matcap decompose {} -o {}", written(folder, "jade"), matcap)).exit_code,
+            0);
+  write_text(folder / "edits.json", R"([{"edit": "intensity", "part": "high", "factor": 0}])");
+  const auto path = [&](const char* name) { return (folder / name).string(); };
+  const auto ok = [&](const std::string& options) {
+    const auto result = run_program(fmt::format("matcap bake {} {}", matcap, options));
+    EXPECT_EQ(result.exit_code, 0) << result.output;
+    EXPECT_EQ(result.output, "");
+  };
+  ok("--edits " + path("edits.json") + " --turn 0,30,0 --size 50 -o " + path("turned.exr"));
+  EXPECT_EQ(read_image(folder / "turned.exr").width, 50);
+  ok("--layers -o " + path("layers.exr"));
+  EXPECT_EQ(read_image_info(folder / "layers.exr").channels, 6);
+  ok("--environment high --environment-height 32 -o " + path("env.hdr"));
+  EXPECT_EQ(read_image(folder / "env.hdr").width, 64);
+  EXPECT_EQ(run_program(fmt::format("matcap bake {} --layers -o {}", matcap, path("x.png"))).exit_code, 2);
+  EXPECT_EQ(
+      run_program(fmt::format("matcap bake {} --edits {} -o {}", matcap, path("none.json"), path("x.png")))
+          .exit_code,
+      1);
+  EXPECT_FALSE(std::filesystem::exists(folder / "x.png"));
+}
+
+TEST(MatcapCommand, SeparateAddsUpAndEstimateReports) {
+  const test::TemporaryFolder folder;
+  const std::string input = written(folder, "lead");
+  const auto path = [&](const char* name) { return (folder / name).string(); };
+  ASSERT_EQ(run_program(fmt::format("matcap separate {} --linear --low {} --high {}", input, path("l.exr"),
+                                    path("h.exr")))
+                .exit_code,
+            0);
+  const Image low = read_data(path("l.exr"));
+  const Image high = read_data(path("h.exr"));
+  const Image whole = read_image(input);
+  for (int c = 0; c < 3; ++c) EXPECT_FLOAT_EQ(low.at(40, 30, c) + high.at(40, 30, c), whole.at(40, 30, c));
+  const auto estimate =
+      run_program(fmt::format("matcap estimate {} --json --plot {} --roi 60,20,6,6", input, path("s.svg")));
+  ASSERT_EQ(estimate.exit_code, 0) << estimate.output;
+  const json report = json::parse(estimate.output);
+  EXPECT_EQ(report["high"]["automatic"], false);
+  EXPECT_GT(report["high"]["signature"].size(), 10U);
+  EXPECT_THAT(read_text(path("s.svg")), HasSubstr("</svg>"));
+  EXPECT_EQ(run_program(fmt::format("matcap estimate {} --roi 60,20,6", input)).exit_code, 2);
+  EXPECT_EQ(run_program(fmt::format("matcap estimate {} --roi 0,0,1,1", input)).exit_code, 1);
+}
+
+TEST(MatcapCommand, BadPicturesAreNamedAndTheOthersOfAFolderDone) {
+  const test::TemporaryFolder folder;
+  std::filesystem::create_directory(folder / "in");
+  write_image(folder / "in" / "good.png", test::example_matcap("jade", 48));
+  write_image(folder / "in" / "pixel.png", Image(1, 1, 3, 0.5F));
+  write_image(folder / "in" / "wide.png", Image(64, 32, 3, 0.5F));
+  write_text(folder / "in" / "torn.png", "\x89PNG\r\n");
+  const auto result = run_program(
+      fmt::format("matcap decompose {} -o {}", (folder / "in").string(), (folder / "out").string()));
+  EXPECT_EQ(result.exit_code, 1);
+  for (const char* name : {"3 of 4", "pixel.png", "wide.png", "torn.png"})
+    EXPECT_THAT(result.output, HasSubstr(name));
+  EXPECT_TRUE(std::filesystem::exists(folder / "out" / "good.ktx2"));
+  EXPECT_TRUE(std::filesystem::exists(folder / "out" / "index.html"));
+  const auto disc =
+      run_program(fmt::format("matcap decompose {} --disc 20,16,12 -o {}",
+                              (folder / "in" / "wide.png").string(), (folder / "w.ktx2").string()));
+  EXPECT_EQ(disc.exit_code, 0) << disc.output;
+  EXPECT_EQ(run_program(fmt::format("matcap decompose {} --disc 20,16,30 -o {}",
+                                    (folder / "in" / "wide.png").string(), (folder / "v.ktx2").string()))
+                .exit_code,
+            1);
+  EXPECT_FALSE(std::filesystem::exists(folder / "v.ktx2"));
+}
+
+}  // namespace
+}  // namespace sateen

@@ -1,0 +1,319 @@
+// SPDX-License-Identifier: MIT
+#include "sateen/brdf/layered.h"
+
+#include <fstream>
+
+#include <gmock/gmock.h>
+
+#include "brdf/random_directions.h"
+#include "sateen/brdf/fibre_diffuse.h"
+#include "sateen/brdf/fuzz_integrals.h"
+#include "sateen/core/error.h"
+#include "sateen/light/environment.h"
+#include "sateen/render/registry.h"
+#include "support/files.h"
+#include "support/rendering.h"
+#include "support/shapes.h"
+
+namespace sateen {
+namespace {
+
+using test::random_up;
+
+/// A soft sky: bright above, a window to the upper left, a warm floor.
+Image sky(int width = 128) {
+  Image image(width, width / 2, 3);
+  for (int y = 0; y < image.height; ++y) {
+    for (int x = 0; x < image.width; ++x) {
+      const Vec3 d = environment_direction({(x + 0.5) / image.width, (y + 0.5) / image.height});
+      const double window = std::exp(8 * (d.dot(Vec3(-0.6, 0.5, 0.6).normalized()) - 1));
+      const Vec3 light = Vec3(0.3, 0.35, 0.45) * (1 + d.y()) / 2 + Vec3(0.12, 0.08, 0.05) * (1 - d.y()) / 2 +
+                         window * Vec3(1.0, 0.9, 0.8);
+      image.set_rgb(x, y, light.cast<float>());
+    }
+  }
+  return image;
+}
+
+const Lighting& everything() {
+  static const Lighting shared = [] {
+    Lighting lighting;
+    PunctualLight key;
+    key.direction = Vec3(-0.4, 0.6, 0.7).normalized();
+    PunctualLight point;
+    point.kind = PunctualLight::Kind::point;
+    point.position = {2, 0, -3};
+    point.colour = {2, 3, 4};
+    PunctualLight spot = point;
+    spot.kind = PunctualLight::Kind::spot;
+    spot.position = {-1, 2, -2};
+    spot.direction = Vec3(0.2, -0.4, -0.5).normalized();
+    spot.inner_cone = 0.2;
+    spot.outer_cone = 0.7;
+    lighting.lights = {key, point, spot};
+    lighting.set_environment(sky());
+    return lighting;
+  }();
+  return shared;
+}
+
+Lighting uniform_light() {
+  Lighting lighting;
+  lighting.set_environment(Image(64, 32, 3, 1));
+  return lighting;
+}
+
+LayeredMaterial fuzzy(FuzzPhase phase = FuzzPhase::sggx) {
+  LayeredMaterial material;
+  material.base_colour = {0.3, 0.1, 0.1};
+  material.fuzz = FuzzParameters{};
+  material.fuzz->phase = phase;
+  material.fuzz->alpha = 0.35;
+  material.fuzz->k = 0.6;
+  material.fuzz->tilt = radians(50);
+  material.fuzz->azimuth = radians(30);
+  material.fuzz->colour = {1, 0.6, 0.4};
+  return material;
+}
+
+LayeredMaterial glossy() {
+  LayeredMaterial material;
+  material.specular = GgxParameters{{0.2, 0.6, radians(25)}, {0.9, 0.6, 0.3}, true};
+  return material;
+}
+
+/// A surface point facing the viewer's z axis, seen from `view`.
+Surface flat(const Vec3& view) {
+  Surface surface;
+  surface.view = view;
+  return surface;
+}
+
+// Single precision, half-float environment texels and the driver's filter weights bound what the GPU can do.
+constexpr double kTolerance = 4e-3;
+
+void expect_gpu_agrees(const LayeredMaterial& material) {
+  test::expect_matches_evaluator(
+      test::torus(), std::make_shared<const LayeredAppearance>(material, everything()), kTolerance);
+}
+
+TEST(LayeredOnGpu, FibreDiffuseEqualsTheEvaluator) {
+  LayeredMaterial material;
+  material.base_azimuth = 0.6;
+  for (const auto base : {LayeredMaterial::Base::fibre_diffuse, LayeredMaterial::Base::maximum_normal}) {
+    material.base = base;
+    expect_gpu_agrees(material);
+  }
+}
+
+TEST(LayeredOnGpu, GgxEqualsTheEvaluator) {
+  expect_gpu_agrees(glossy());
+}
+
+TEST(LayeredOnGpu, FuzzEqualsTheEvaluatorWithEveryPhaseFunction) {
+  for (const FuzzPhase phase : {FuzzPhase::sggx, FuzzPhase::sggx_symmetric, FuzzPhase::schlick}) {
+    expect_gpu_agrees(fuzzy(phase));
+  }
+}
+
+TEST(LayeredOnGpu, FuzzOverGlossEqualsTheEvaluator) {
+  LayeredMaterial material = fuzzy();
+  material.specular = glossy().specular;
+  expect_gpu_agrees(material);
+  material.fuzz_scattered_down = false;
+  expect_gpu_agrees(material);
+}
+
+TEST(LayeredOnGpu, TheSlidesFormsEqualTheEvaluator) {
+  LayeredMaterial material = fuzzy();
+  material.fuzz_slides = true;
+  expect_gpu_agrees(material);
+}
+
+TEST(LayeredOnGpu, SimpleFuzzEqualsTheEvaluator) {
+  LayeredMaterial material;
+  material.simple_fuzziness = 0.6;
+  expect_gpu_agrees(material);
+}
+
+TEST(Layered, AWhiteFurnaceIsWhite) {
+  std::mt19937 random(1);
+  LayeredMaterial lambert;
+  lambert.base_colour = Vec3::Ones();
+  LayeredMaterial fibres = lambert;
+  fibres.base = LayeredMaterial::Base::fibre_diffuse;
+  LayeredMaterial metal;
+  metal.base_colour = Vec3::Zero();
+  metal.specular = GgxParameters{{0.5, 0.2, 0}, Vec3::Ones(), true};
+  for (const LayeredMaterial& material : {lambert, fibres, metal}) {
+    const LayeredAppearance appearance(material, uniform_light());
+    for (int i = 0; i < 20; ++i) {
+      EXPECT_NEAR(appearance.evaluate(flat(random_up(random, 0.1))).x(), 1, 6e-3);
+    }
+  }
+}
+
+TEST(Layered, FuzzInUniformLightIsItsIntegral) {
+  std::mt19937 random(2);
+  LayeredMaterial material = fuzzy();
+  material.base_colour = Vec3::Zero();
+  material.fuzz->colour = Vec3::Ones();
+  const LayeredAppearance table(material, uniform_light());
+  material.fuzz_slides = true;
+  const LayeredAppearance slides(material, uniform_light());
+  double worst_table = 0;
+  double worst_slides = 0;
+  for (int i = 0; i < 60; ++i) {
+    const Vec3 v = random_up(random, 0.05);
+    const double exact = fuzz_uniform_response(*material.fuzz, v, 1e-6);
+    worst_table = std::max(worst_table, std::abs(std::log(table.evaluate(flat(v)).x() / exact)));
+    worst_slides = std::max(worst_slides, std::abs(std::log(slides.evaluate(flat(v)).x() / exact)));
+  }
+  EXPECT_LT(worst_table, std::log(1.08));
+  EXPECT_GT(worst_slides, std::log(1.5));
+}
+
+/// Radiance towards `view` in the sky by importance-free summation: f (n.u) L over the hemisphere.
+Vec3 summed(const std::function<Vec3(const Vec3&)>& brdf, const Image& light) {
+  Vec3 sum;
+  for (int channel = 0; channel < 3; ++channel) {
+    sum[channel] = test::midpoint_hemisphere(
+        [&](const Vec3& u) { return brdf(u)[channel] * u.z() * environment_radiance(light, u)[channel]; },
+        160);
+  }
+  return sum;
+}
+
+TEST(Layered, SurroundingsAreCloseToTheIntegralOfTheBrdf) {
+  std::mt19937 random(3);
+  const Image light = sky();
+  Lighting lighting;
+  lighting.set_environment(light);
+  LayeredMaterial gloss;
+  gloss.base_colour = Vec3::Zero();
+  gloss.specular = GgxParameters{{0.15, 0.6, 0.4}, {0.9, 0.6, 0.3}, false};
+  LayeredMaterial fuzz = fuzzy();
+  fuzz.base_colour = Vec3::Zero();
+  LayeredMaterial fibres;
+  fibres.base = LayeredMaterial::Base::fibre_diffuse;
+  const LayeredAppearance gloss_look(gloss, lighting);
+  const LayeredAppearance fuzz_look(fuzz, lighting);
+  const LayeredAppearance fibre_look(fibres, lighting);
+  LayeredMaterial slides = fuzz;
+  slides.fuzz_slides = true;
+  const LayeredAppearance slides_look(slides, lighting);
+  double slides_error = 0;
+  double gloss_error = 0;
+  double fuzz_error = 0;
+  constexpr int kViews = 12;
+  for (int i = 0; i < kViews; ++i) {
+    const Vec3 v = random_up(random, 0.15);
+    const Vec3 g = summed(
+        [&](const Vec3& u) { return ggx_brdf(gloss.specular->roughness, gloss.specular->f0, u, v); }, light);
+    gloss_error += (gloss_look.evaluate(flat(v)) - g).norm() / g.norm() / kViews;
+    const Vec3 f = summed([&](const Vec3& u) { return fuzz_brdf(*fuzz.fuzz, u, v); }, light);
+    fuzz_error += (fuzz_look.evaluate(flat(v)) - f).norm() / f.norm() / kViews;
+    slides_error += (slides_look.evaluate(flat(v)) - f).norm() / f.norm() / kViews;
+  }
+  RecordProperty("gloss", std::to_string(gloss_error));
+  RecordProperty("fuzz", std::to_string(fuzz_error));
+  EXPECT_LT(gloss_error, 0.12);
+  RecordProperty("slides", std::to_string(slides_error));
+  EXPECT_LT(fuzz_error, 0.1);
+  EXPECT_LT(fuzz_error, 0.4 * slides_error);
+  const Vec3 d = summed(
+      [&](const Vec3& u) {
+        return Vec3::Constant(0.5 * fibre_diffuse(u) / kFibreDiffuseNorm / u.z()).eval();
+      },
+      light);
+  EXPECT_LT((fibre_look.evaluate(flat(Vec3::UnitZ())) - d).norm() / d.norm(), 0.03);
+}
+
+TEST(Layered, SeveralLobeSamplesBeatOne) {
+  std::mt19937 random(4);
+  const Image light = sky();
+  Lighting lighting;
+  lighting.set_environment(light);
+  LayeredMaterial material;
+  material.base_colour = Vec3::Zero();
+  material.specular = GgxParameters{{0.08, 0.5, 0.4}, Vec3::Ones(), false};
+  double errors[2] = {0, 0};
+  for (int i = 0; i < 10; ++i) {
+    const Vec3 v = random_up(random, 0.3);
+    const Vec3 exact = summed(
+        [&](const Vec3& u) { return ggx_brdf(material.specular->roughness, Vec3::Ones(), u, v); }, light);
+    for (int j = 0; j < 2; ++j) {
+      material.lobe_samples = j == 0 ? 1 : 8;
+      errors[j] += (LayeredAppearance(material, lighting).evaluate(flat(v)) - exact).norm() / exact.norm();
+    }
+  }
+  EXPECT_LT(errors[1], 0.7 * errors[0]);
+}
+
+TEST(Layered, AnisotropyStaysVisibleInAmbientLightAlone) {
+  LayeredMaterial material = fuzzy();
+  material.base_colour = Vec3::Zero();
+  material.fuzz->azimuth = 0;
+  const Vec3 v = Vec3(0.7, 0, 0.7).normalized();
+  // The nap leaning towards the eye, across and away from it: nothing else changes, and the light is the same
+  // all round.
+  const auto contrast = [&](bool slides) {
+    material.fuzz_slides = slides;
+    const LayeredAppearance appearance(material, uniform_light());
+    double darkest = 1e9;
+    double brightest = 0;
+    for (const Vec3& tangent : {Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(-1, 0, 0)}) {
+      Surface surface = flat(v);
+      surface.tangent = tangent;
+      const double radiance = appearance.evaluate(surface).x();
+      darkest = std::min(darkest, radiance);
+      brightest = std::max(brightest, radiance);
+    }
+    return brightest / darkest;
+  };
+  EXPECT_GT(contrast(false), 1.5);
+  EXPECT_GT(contrast(true), 1.05);
+}
+
+TEST(Layered, NoFuzzIsTheBaseAlone) {
+  LayeredMaterial bare = glossy();
+  LayeredMaterial thin = bare;
+  thin.fuzz = FuzzParameters{};
+  thin.fuzz->density = 0;
+  const Surface surface = flat(Vec3(0.3, 0.2, 0.8).normalized());
+  EXPECT_LT((LayeredAppearance(bare, everything()).evaluate(surface) -
+             LayeredAppearance(thin, everything()).evaluate(surface))
+                .norm(),
+            1e-6);
+}
+
+TEST(Layered, MaterialFilesAreReadAndWrongOnesNamed) {
+  for (const auto& entry : std::filesystem::directory_iterator(test::examples() / "materials")) {
+    if (entry.path().extension() != ".json") continue;
+    const auto appearance = load_appearance(entry.path());
+    EXPECT_TRUE(appearance->evaluate(flat(Vec3::UnitZ())).allFinite()) << entry.path();
+    EXPECT_TRUE(appearance->set_environment(Image(16, 8, 3, 1)));
+  }
+  const test::TemporaryFolder folder;
+  const auto message = [&](const std::string& text) -> std::string {
+    std::ofstream(folder / "m.json") << text;
+    try {
+      load_appearance(folder / "m.json");
+    } catch (const Error& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_THAT(message(R"({"model": "layered", "fuzz": {"density": -1}})"),
+              testing::AllOf(testing::HasSubstr("m.json, fuzz"), testing::HasSubstr("\"density\""),
+                             testing::HasSubstr("-1")));
+  EXPECT_THAT(message(R"({"model": "layered", "bass": {}})"), testing::HasSubstr("unknown key \"bass\""));
+  EXPECT_THAT(message(R"({"model": "layered", "specular": {"alpha_t": 0}})"), testing::HasSubstr("(0, 1]"));
+  EXPECT_THAT(message(R"({"model": "layered", "lights": [{"kind": "spot", "direction": [0,0,1]}]})"),
+              testing::AllOf(testing::HasSubstr("light 0"), testing::HasSubstr("\"position\" is missing")));
+  EXPECT_THAT(message(R"({"model": "layered", "environment": "nowhere.hdr"})"),
+              testing::HasSubstr("nowhere.hdr"));
+}
+
+}  // namespace
+}  // namespace sateen

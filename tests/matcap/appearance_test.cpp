@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: MIT
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "sateen/core/error.h"
+#include "sateen/io/file.h"
+#include "sateen/matcap/decomposed_appearance.h"
+#include "sateen/matcap/decomposition_file.h"
+#include "sateen/matcap/edits.h"
+#include "sateen/render/registry.h"
+#include "support/matcaps.h"
+#include "support/rendering.h"
+#include "support/shapes.h"
+
+namespace sateen {
+namespace {
+
+using testing::HasSubstr;
+
+// Half floats, the driver's 8-bit filter weights, and display values decoded to light, which doubles
+// differences.
+constexpr double kTolerance = 0.012;
+
+const MatcapDecomposition& carpaint() {
+  static const MatcapDecomposition matcap =
+      decompose(test::example_matcap("carpaint", 128), inscribed_disc(128, 128), {}, "carpaint");
+  return matcap;
+}
+
+EditedMatcap edited(const std::string& json) {
+  return apply_edits(carpaint(), parse_edits(json, {}, "edits"));
+}
+
+void expect_matches(EditedMatcap matcap, ModulationMaps maps = {}) {
+  test::Picture picture;
+  picture.width = picture.height = 96;
+  test::expect_matches_evaluator(
+      test::torus(), std::make_shared<const DecomposedAppearance>(std::move(matcap), std::move(maps)),
+      kTolerance, {}, picture);
+}
+
+TEST(DecomposedOnGpu, EqualsTheEvaluator) {
+  expect_matches(unedited(carpaint()));
+}
+
+TEST(DecomposedOnGpu, EqualsTheEvaluatorWithTurnedLightAndChangedMaterial) {
+  expect_matches(edited(R"([{"edit": "turn", "degrees": [20, -50, 10]},
+                            {"edit": "roughness", "part": "high", "add": 0.02},
+                            {"edit": "color", "part": "low", "hue": 120},
+                            {"edit": "intensity", "part": "high", "factor": 0.7},
+                            {"edit": "silhouette", "part": "low", "theta0": 40, "m1": 0.5, "alpha1": 0.9}])"));
+}
+
+TEST(DecomposedOnGpu, EqualsTheEvaluatorWithTextures) {
+  ModulationMaps maps;
+  maps.low_color = Image(8, 8, 3);
+  maps.high_color = Image(4, 4, 3, 0.5F);
+  maps.roughness = Image(6, 6, 1);
+  maps.occlusion = Image(3, 3, 1, 0.8F);
+  for (int y = 0; y < 8; ++y) {
+    for (int x = 0; x < 8; ++x)
+      maps.low_color.set_rgb(
+          x, y, {0.3F + 0.05F * static_cast<float>(x), 0.5F, 0.3F + 0.05F * static_cast<float>(y)});
+  }
+  for (int y = 0; y < 6; ++y) {
+    for (int x = 0; x < 6; ++x) maps.roughness.at(x, y, 0) = 0.15F * static_cast<float>(x);
+  }
+  maps.roughness_scale = 0.1;
+  expect_matches(unedited(carpaint()), maps);
+}
+
+TEST(DecomposedAppearance, IsLoadedByTheRegistryAsTextureAndAsMaterial) {
+  const test::TemporaryFolder folder;
+  write_matcap(folder / "paint.ktx2", carpaint());
+  Surface surface;
+  surface.eye_normal = normal_on_disc({0.2, -0.3});
+  surface.occlusion = 0.5;
+  const Vec3 expected = 0.5 * evaluate(unedited(carpaint()), surface.eye_normal);
+  EXPECT_TRUE(load_appearance(folder / "paint.ktx2")->evaluate(surface).isApprox(expected, 2e-3));
+  write_text(folder / "paint.json", R"({"model": "matcap-decomposition", "matcap": "paint.ktx2",
+                                        "edits": [{"edit": "intensity", "part": "low", "factor": 0}]})");
+  EditedMatcap dark = unedited(carpaint());
+  dark.look(Part::low).intensity = 0;
+  EXPECT_TRUE(load_appearance(folder / "paint.json")
+                  ->evaluate(surface)
+                  .isApprox(0.5 * evaluate(dark, surface.eye_normal), 2e-3));
+  write_text(folder / "odd.json", R"({"model": "matcap-decomposition", "matcap": "paint.ktx2", "shine": 3})");
+  try {
+    load_appearance(folder / "odd.json");
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_THAT(error.what(), testing::AllOf(HasSubstr("odd.json"), HasSubstr("shine")));
+  }
+}
+
+}  // namespace
+}  // namespace sateen

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include "sateen/core/error.h"
+#include "sateen/matcap/bake.h"
+#include "sateen/matcap/decomposition_file.h"
+#include "sateen/matcap/warp.h"
+#include "support/matcaps.h"
+
+namespace sateen {
+namespace {
+
+/// decompose, write, read, bake: PSNR over the sphere in display values.
+double round_trip(const Image& picture, const Disc& disc, const DecomposeOptions& options) {
+  const test::TemporaryFolder folder;
+  write_matcap(folder / "matcap.ktx2", decompose(picture, disc, options, "picture"));
+  const Image baked = bake(unedited(read_matcap(folder / "matcap.ktx2")));
+  EXPECT_EQ(baked.width, picture.width);
+  EXPECT_EQ(baked.height, picture.height);
+  return psnr_on_disc(baked, picture, disc);
+}
+
+TEST(RoundTrip, BakingTheUneditedMatCapGivesTheInputBack) {
+  for (const char* name : test::kMatcaps) {
+    EXPECT_GT(round_trip(test::example_matcap(name, 256), inscribed_disc(256, 256), {}), 50) << name;
+  }
+  DecomposeOptions linear;
+  linear.space = AddUpSpace::linear;
+  EXPECT_GT(round_trip(test::example_matcap("jade", 128), inscribed_disc(128, 128), linear), 50);
+}
+
+TEST(RoundTrip, HoldsForASphereSomewhereInAPictureAndForGrain) {
+  const Disc disc{61.5, 40, 33.25};
+  Image picture(120, 90, 3);
+  unsigned state = 9;
+  for (float& v : picture.data) {
+    state = state * 1664525U + 1013904223U;
+    v = 0.3F + 0.3F * static_cast<float>(state >> 8) / 16777216.0F;
+  }
+  DecomposeOptions options;
+  options.map_size = 128;
+  EXPECT_GT(round_trip(picture, disc, options), 45);
+}
+
+TEST(RoundTrip, BlackPicturesStayBlack) {
+  const Image black(64, 64, 3);
+  const Disc disc = inscribed_disc(64, 64);
+  const MatcapDecomposition matcap = decompose(black, disc, {}, "black");
+  EXPECT_EQ(matcap[Part::low].base_color, Vec3(1, 1, 1));
+  for (const float v : bake(unedited(matcap)).data) EXPECT_EQ(v, 0);
+}
+
+TEST(RoundTrip, SpheresTooLargeForMapsAreShrunkFirst) {
+  const Image large = test::example_matcap("lead", 128);
+  DecomposeOptions options;
+  options.largest_radius = 40;
+  options.regions[1] = {{84, 30, 4, 4}};
+  const MatcapDecomposition matcap = decompose(large, inscribed_disc(128, 128), options, "large");
+  EXPECT_EQ(matcap.width, 128);
+  EXPECT_EQ(matcap.disc.radius, 64);
+  EXPECT_EQ(matcap[Part::low].map.levels.front().size(), 80);
+  EXPECT_NEAR(matcap[Part::high].regions[0].x, 84, 2);
+  EXPECT_GT(psnr_on_disc(bake(unedited(matcap)), large, matcap.disc), 35);
+}
+
+TEST(Layers, AddUpToThePictureInLinearLight) {
+  const Image picture = test::example_matcap("carpaint", 96);
+  const EditedMatcap matcap = unedited(decompose(picture, inscribed_disc(96, 96), {}, "carpaint"));
+  const Image whole = bake(matcap);
+  const auto layers = bake_layers(matcap);
+  for (std::size_t i = 0; i < whole.data.size(); ++i) {
+    EXPECT_NEAR(layers[0].data[i] + layers[1].data[i], whole.data[i], 1e-5F * (1 + whole.data[i]));
+  }
+}
+
+TEST(Environment, ShowsTheLightAMirrorWouldSee) {
+  const Vec3 lamp = test::direction_at(0.4, 1.2);  // the normal that shows it
+  const Image picture = test::sphere_picture(128, [&](const Vec3& n) -> Vec3 {
+    const double angle = test::angle_between(n, lamp);
+    return Vec3::Constant(std::exp(-angle * angle / 0.004));
+  });
+  DecomposeOptions options;
+  options.space = AddUpSpace::linear;
+  const EditedMatcap matcap = unedited(decompose(picture, inscribed_disc(128, 128), options, "lamp"));
+  const Image environment = bake_environment(matcap, Part::high, 128);
+  Vec3 brightest = Vec3::Zero();
+  float most = -1;
+  for (int y = 0; y < 128; ++y) {
+    for (int x = 0; x < 256; ++x) {
+      if (environment.at(x, y, 0) <= most) continue;
+      most = environment.at(x, y, 0);
+      brightest = direction_of_environment(x, y, 128);
+    }
+  }
+  EXPECT_LT(test::angle_between(brightest, warp(lamp, matcap.matcap[Part::high].slope())), 0.05);
+  EXPECT_TRUE(direction_of_environment(128, 64, 128).isApprox(-Vec3::UnitZ(), 0.02));
+}
+
+}  // namespace
+}  // namespace sateen

@@ -1,0 +1,29 @@
+# SPDX-License-Identifier: MIT
+cmake_minimum_required(VERSION 3.22)
+function(run)
+  execute_process(COMMAND ${ARGN} RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE output)
+  if(NOT result EQUAL 0)
+    message(FATAL_ERROR "${ARGN} ended with ${result}:\n${output}")
+  endif()
+endfunction()
+
+file(REMOVE_RECURSE ${WORK})
+run(${CMAKE_COMMAND} --install ${BUILD} --component development --prefix ${WORK}/prefix)
+
+# The README's program has to compile as it stands there.
+file(READ ${README} readme)
+if(NOT readme MATCHES "```cpp\n([^`]+)```")
+  message(FATAL_ERROR "${README} has no C++ program")
+endif()
+file(WRITE ${WORK}/consumer/readme.cpp "${CMAKE_MATCH_1}")
+file(COPY ${CONSUMER}/ DESTINATION ${WORK}/consumer)
+
+set(flags)
+if(SANITIZE)
+  set(flags -D CMAKE_CXX_FLAGS=-fsanitize=${SANITIZE})
+endif()
+run(${CMAKE_COMMAND} -S ${WORK}/consumer -B ${WORK}/build -G Ninja -D CMAKE_PREFIX_PATH=${WORK}/prefix
+  -D CMAKE_CXX_COMPILER=${COMPILER} -D CMAKE_CXX_COMPILER_LAUNCHER=${LAUNCHER} ${flags})
+run(${CMAKE_COMMAND} --build ${WORK}/build)
+run(${WORK}/build/consumer ${WORK}/texture.ktx2)
+file(REMOVE_RECURSE ${WORK})

@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: MIT
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "sateen/amc/amc_file.h"
+#include "sateen/io/file.h"
+#include "sateen/io/image.h"
+#include "support/analytic_material.h"
+#include "support/files.h"
+
+// `sateen render` and `sateen shade` as users meet them.
+namespace sateen {
+namespace {
+
+using test::ProgramResult;
+using testing::HasSubstr;
+
+/// A folder with a cloth of two triangles, with and without UVs, an AMC and a MatCap.
+class RenderCli : public testing::Test {
+ protected:
+  RenderCli() {
+    const std::string corners = "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\n";
+    write_text(folder / "bare.obj", corners + "f 1 2 3 4\n");
+    write_text(
+        folder / "cloth.obj",
+        corners +
+            "vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nusemtl front\nf 1/1 2/2 3/3\nusemtl sleeve\nf 1/1 3/3 4/4\n");
+    write_amc(folder / "silk.ktx2", test::analytic_table(16, 16, 2));
+    write_image(folder / "clay.exr", Image(16, 16, 3, 0.25f));
+  }
+
+  std::string at(const std::string& name) const { return fmt::format("'{}'", (folder / name).string()); }
+  ProgramResult render(const std::string& mesh, const std::string& rest) const {
+    return test::run_program("render " + at(mesh) + " --size 16 --samples 1 " + rest);
+  }
+  /// Exit code 1, a message with `words`, and no file of the output's name.
+  void expect_wrong_input(const ProgramResult& result, const std::string& words) const {
+    EXPECT_EQ(result.exit_code, 1) << result.output;
+    EXPECT_THAT(result.output, HasSubstr(words));
+    EXPECT_FALSE(std::filesystem::exists(folder / "out.png"));
+  }
+
+  test::TemporaryFolder folder;
+};
+
+TEST_F(RenderCli, DrawsAPictureAndSaysNothing) {
+  const ProgramResult result =
+      render("cloth.obj", "--material " + at("silk.ktx2") + " -o " + at("out.exr") + " --camera view-space");
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_EQ(result.output, "");
+  const Image picture = read_image(folder / "out.exr");
+  EXPECT_EQ(picture.width, 16);
+  EXPECT_EQ(picture.channels, 4);
+  // A flat cloth facing the viewer, threads along x: the table's middle at k = 0.
+  const Vec3 expected = test::analytic_colour(Vec3::UnitZ(), 0, 2);
+  EXPECT_LT((picture.rgb(8, 8).cast<double>() - expected).norm(), 0.01);
+}
+
+TEST_F(RenderCli, TurningTheTangentsSwapsWarpAndWeft) {
+  ASSERT_EQ(
+      render("cloth.obj", "--material " + at("silk.ktx2") + " -o " + at("out.exr") + " --tangent-angle 45")
+          .exit_code,
+      0);
+  const Vec3 expected = test::analytic_colour(Vec3::UnitZ(), 0.125, 2);
+  // Near the middle, where the view is straight; samples of a coarse table.
+  EXPECT_LT((read_image(folder / "out.exr").rgb(8, 8).cast<double>() - expected).norm(), 0.05);
+}
+
+TEST_F(RenderCli, RenderedVectorsShadeToTheSamePicture) {
+  ASSERT_EQ(
+      render("cloth.obj",
+             "--material " + at("silk.ktx2") + " -o " + at("out.exr") +
+                 " --camera orthographic --rotate 20,30,40 --aov normal,tangent,k,mask,uv,occlusion,position")
+          .exit_code,
+      0);
+  for (const char* name : {"normal", "tangent", "k", "mask", "uv", "occlusion", "position"}) {
+    EXPECT_EQ(read_data(folder / (std::string("out.") + name + ".exr")).width, 16) << name;
+  }
+  ASSERT_EQ(
+      test::run_program("shade --normals " + at("out.normal.exr") + " --tangents " + at("out.tangent.exr") +
+                        " --material " + at("silk.ktx2") + " -o " + at("shaded.exr"))
+          .exit_code,
+      0);
+  const Image drawn = read_image(folder / "out.exr");
+  const Image shaded = read_image(folder / "shaded.exr");
+  for (std::size_t i = 0; i < drawn.data.size(); ++i) EXPECT_NEAR(drawn.data[i], shaded.data[i], 6e-3);
+}
+
+TEST_F(RenderCli, EachMaterialOfTheMeshCanHaveItsOwn) {
+  ASSERT_EQ(render("cloth.obj", "-m " + at("silk.ktx2") + " -m sleeve=" + at("clay.exr") + " -o " +
+                                    at("out.exr") + " --camera view-space")
+                .exit_code,
+            0);
+  const Image picture = read_image(folder / "out.exr");
+  EXPECT_NEAR(picture.at(4, 4, 0), 0.25, 1e-3);  // upper left: sleeve
+  EXPECT_NE(picture.at(12, 12, 0), 0.25f);       // lower right: front
+  expect_wrong_input(
+      render("cloth.obj", "-m " + at("silk.ktx2") + " -m collar=" + at("clay.exr") + " -o " + at("out.png")),
+      "sleeve");
+}
+
+TEST_F(RenderCli, ATurntableIsNumberedOrAFilm) {
+  const std::string material = "--turntable 3 --material " + at("clay.exr");
+  ASSERT_EQ(render("cloth.obj", material + " -o " + at("turn.png")).exit_code, 0);
+  EXPECT_TRUE(std::filesystem::exists(folder / "turn_0002.png"));
+  ASSERT_EQ(render("cloth.obj", material + " -o " + at("turn")).exit_code, 0);
+  EXPECT_TRUE(std::filesystem::exists(folder / "turn" / "0002.png"));
+  const ProgramResult film = render("cloth.obj", material + " -o " + at("turn.mp4"));
+  EXPECT_EQ(film.exit_code, 0) << film.output;
+  EXPECT_GT(std::filesystem::file_size(folder / "turn.mp4"), 500u);
+}
+
+TEST_F(RenderCli, BackgroundsAndOddSizes) {
+  ASSERT_EQ(test::run_program("render " + at("cloth.obj") +
+                              " --size 7x13 --background '#ff8000' --rotate 0,90,0 -m " + at("clay.exr") +
+                              " -o " + at("out.png"))
+                .exit_code,
+            0);
+  const Image picture = read_data(folder / "out.png");
+  EXPECT_EQ(picture.width, 7);
+  EXPECT_EQ(picture.height, 13);
+  EXPECT_NEAR(picture.at(0, 0, 0), 1, 0.003);
+  EXPECT_NEAR(picture.at(0, 0, 1), 128.0 / 255, 0.003);
+}
+
+TEST_F(RenderCli, NoUvsIsExplainedAndProceduralTangentsHelp) {
+  expect_wrong_input(render("bare.obj", "--material " + at("silk.ktx2") + " -o " + at("out.png")),
+                     "--tangents around:y");
+  EXPECT_EQ(render("bare.obj", "--material " + at("silk.ktx2") + " --tangents along:x -o " + at("out.png"))
+                .exit_code,
+            0);
+  std::filesystem::remove(folder / "out.png");
+  EXPECT_EQ(render("bare.obj", "--material " + at("clay.exr") + " -o " + at("out.png")).exit_code, 0);
+}
+
+TEST_F(RenderCli, WrongInputIsNamed) {
+  const std::string output = " -o " + at("out.png");
+  expect_wrong_input(render("none.obj", "-m " + at("clay.exr") + output), "none.obj");
+  expect_wrong_input(render("cloth.obj", "-m " + at("none.ktx2") + output), "none.ktx2");
+  expect_wrong_input(render("cloth.obj", "-m " + at("cloth.obj") + output), "no material");
+  expect_wrong_input(render("bare.obj", "-m " + at("clay.exr") + " --normal-map " + at("clay.exr") + output),
+                     "UVs");
+  expect_wrong_input(render("cloth.obj", "-m " + at("clay.exr") + " --occlusion " + at("none.png") + output),
+                     "none.png");
+  expect_wrong_input(render("cloth.obj", "-m " + at("clay.exr") + " -o " + at("missing/out.png")), "missing");
+  expect_wrong_input(render("cloth.obj", "-m " + at("clay.exr") + " -o " + at("out.gif")), "out.gif");
+  expect_wrong_input(
+      test::run_program("shade --normals " + at("clay.exr") + " -m " + at("silk.ktx2") + output), "tangents");
+}
+
+TEST_F(RenderCli, AWrongCommandLineExitsWithTwo) {
+  const std::string rest = "-m " + at("clay.exr") + " -o " + at("out.png");
+  for (const std::string option :
+       {"--rotate 1,2", "--rotate a,b,c", "--background '#12'", "--tangents sideways",
+        "--tangents around:0,0,0", "--aov beauty", "--camera fisheye", "--samples 0",
+        "--no-cyclic-fix --per-fragment", "--turntable -1"}) {
+    EXPECT_EQ(render("cloth.obj", rest + " " + option).exit_code, 2) << option;
+  }
+  for (const std::string size : {"0", "10x", "x10", "10x10x10", "99999999x1", "-4"}) {
+    EXPECT_EQ(test::run_program("render " + at("cloth.obj") + " " + rest + " --size=" + size).exit_code, 2)
+        << size;
+  }
+  EXPECT_EQ(test::run_program("render " + at("cloth.obj") + " " + rest + " --size 20x10 --camera view-space")
+                .exit_code,
+            2);
+  EXPECT_EQ(render("cloth.obj", "-m " + at("clay.exr") + " -o " + at("film.mp4")).exit_code, 2);
+  EXPECT_FALSE(std::filesystem::exists(folder / "out.png"));
+}
+
+}  // namespace
+}  // namespace sateen

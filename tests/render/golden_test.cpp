@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+#include "support/golden.h"
+
+#include <gtest/gtest.h>
+
+#include "sateen/amc/appearance.h"
+#include "sateen/core/direction.h"
+#include "sateen/geometry/tangents.h"
+#include "sateen/io/mesh.h"
+#include "sateen/matcap/matcap.h"
+#include "support/analytic_material.h"
+#include "support/files.h"
+#include "support/rendering.h"
+#include "support/shapes.h"
+
+namespace sateen {
+namespace {
+
+constexpr int kSide = 160;
+
+Image picture_of(const Mesh& mesh, std::shared_ptr<const Appearance> appearance,
+                 const RenderSwitches& switches, const Vec3& degrees) {
+  test::Picture picture{.width = kSide, .height = kSide, .samples = 3, .surfaces = false};
+  picture.rotation = rotation_xyz(degrees * (kPi / 180));
+  return test::render(test::scene_of(mesh, std::move(appearance), switches), picture).colour;
+}
+
+std::shared_ptr<const Appearance> satin() {
+  return std::make_shared<const AmcAppearance>(test::analytic_table(64, 64, 2));
+}
+
+TEST(Golden, TorusWithTangentsAroundTheRing) {
+  test::expect_golden(picture_of(test::torus(), satin(), {}, {40, 20, 0}), "torus_around");
+}
+
+TEST(Golden, TorusWithTangentsAroundTheTube) {
+  test::expect_golden(picture_of(test::torus(0.4, 96, 48, true), satin(), {}, {40, 20, 0}), "torus_across");
+}
+
+TEST(Golden, TorusWithoutTheCyclicFix) {
+  const RenderSwitches naive{.tangent_angle = TangentAngle::naive};
+  test::expect_golden(picture_of(test::torus(0.4, 24, 12), satin(), naive, {40, 20, 0}), "torus_naive");
+}
+
+TEST(Golden, JacketWithAMatCap) {
+  Mesh mesh = read_model(test::examples() / "garment" / "jacket.obj").mesh;
+  if (mesh.normals.empty()) compute_normals(mesh);
+  mesh.material_ids.clear();
+  test::expect_golden(picture_of(mesh, std::make_shared<const MatCap>(test::test_matcap()), {}, {0, 25, 0}),
+                      "jacket_matcap");
+}
+
+}  // namespace
+}  // namespace sateen

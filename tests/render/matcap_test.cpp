@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: MIT
+#include "sateen/matcap/matcap.h"
+
+#include "sateen/core/direction.h"
+#include "support/rendering.h"
+#include "support/shapes.h"
+
+namespace sateen {
+namespace {
+
+using test::Picture;
+
+std::shared_ptr<const MatCap> matcap() {
+  return std::make_shared<const MatCap>(test::test_matcap());
+}
+
+Picture orthographic(int size) {
+  Picture picture;
+  picture.width = picture.height = size;
+  picture.camera.kind = Camera::Kind::view_space;
+  return picture;
+}
+
+// Half floats and the driver's 8-bit filter weights bound what the GPU can do.
+constexpr double kTolerance = 2e-3;
+
+TEST(MatCapOnGpu, EqualsTheEvaluatorInEverySwitch) {
+  Picture picture;
+  picture.camera.field_of_view = radians(75);
+  for (const Perspective perspective : {Perspective::rotation, Perspective::equation4, Perspective::none}) {
+    for (const bool renormalise : {true, false}) {
+      const RenderSwitches switches{.perspective = perspective, .renormalise = renormalise};
+      test::expect_matches_evaluator(test::torus(), matcap(), kTolerance, switches, picture);
+    }
+  }
+}
+
+TEST(MatCapOnGpu, OfAnOrthographicSphereIsThePictureItself) {
+  const int size = 96;
+  const Image image = test::test_matcap(size);
+  const Frame frame = test::render(
+      test::scene_of(test::sphere(512, 256), std::make_shared<const MatCap>(image)), orthographic(size));
+  for (int y = 0; y < size; ++y) {
+    for (int x = 0; x < size; ++x) {
+      // The outermost pixels are replaced by the rim's trusted colour, and the mesh is a polygon there.
+      if (disc_of_pixel(x, y, size).norm() > 0.96) continue;
+      EXPECT_LT((frame.colour.rgb(x, y) - image.rgb(x, y)).cwiseAbs().maxCoeff(), 4e-3) << x << ", " << y;
+    }
+  }
+}
+
+TEST(MatCapOnGpu, TurningTheObjectLeavesTheLightWhereItIs) {
+  const Scene scene = test::scene_of(test::sphere(512, 256), matcap());
+  Picture picture = orthographic(64);
+  const Frame still = test::render(scene, picture);
+  picture.rotation = rotation_xyz({0.3, 1.2, -0.7});
+  const Frame turned = test::render(scene, picture);
+  test::Difference difference;
+  for (int y = 0; y < 64; ++y) {
+    for (int x = 0; x < 64; ++x) {
+      if (disc_of_pixel(x, y, 64).norm() > 0.97) continue;
+      difference.add(x, y, (still.colour.rgb(x, y) - turned.colour.rgb(x, y)).cwiseAbs().maxCoeff(), 5e-3);
+    }
+  }
+  EXPECT_EQ(difference.failing, 0) << difference.largest;
+}
+
+// A sphere seen from near by: along each view ray that just touches it the eye-frame normal lies on the rim.
+// The full rotation gets this right everywhere; equation (4) treats x and y apart and leaves the disc in the
+// corners.
+TEST(MatCapOnGpu, TheSilhouetteIsTheRimUnderTheRotationButNotUnderEquation4) {
+  const auto largest_radius = [](Perspective perspective) {
+    Scene scene = test::scene_of(test::sphere(), matcap(), {.perspective = perspective});
+    Picture picture;
+    picture.width = picture.height = 160;
+    picture.camera.field_of_view = radians(100);
+    const Frame frame = test::render(scene, picture);
+    double largest = 0;
+    for (int y = 0; y < 160; ++y) {
+      for (int x = 0; x < 160; ++x) {
+        const auto surface = surface_at(frame, x, y);
+        if (surface) largest = std::max(largest, surface->eye_normal.head<2>().norm());
+      }
+    }
+    return largest;
+  };
+  EXPECT_NEAR(largest_radius(Perspective::rotation), 1, 0.01);
+  EXPECT_GT(largest_radius(Perspective::equation4), 1.02);
+}
+
+TEST(MatCapOnGpu, SurfaceAgreesWithTheDefinitionsInCore) {
+  for (const Perspective perspective : {Perspective::rotation, Perspective::equation4, Perspective::none}) {
+    Scene scene = test::scene_of(test::torus(), matcap(),
+                                 {.tangent_angle = TangentAngle::fragment, .perspective = perspective});
+    Picture picture;
+    picture.camera.field_of_view = radians(80);
+    picture.rotation = rotation_xyz({0.5, 0.4, 0.2});
+    const Frame frame = test::render(scene, picture);
+    int compared = 0;
+    for (int y = 0; y < 128; ++y) {
+      for (int x = 0; x < 128; ++x) {
+        const auto s = surface_at(frame, x, y);
+        if (!s) continue;
+        ++compared;
+        const auto corrected = [&](const Vec3& v) {
+          if (perspective == Perspective::rotation) return Vec3(eye_frame(s->view) * v);
+          return perspective == Perspective::equation4 ? perspective_equation4(v, s->position) : v;
+        };
+        const Vec3 seen = corrected(s->normal);
+        if (seen.z() > 0) {
+          EXPECT_LT((s->eye_normal - seen).norm(), 1e-5);
+        }
+        EXPECT_NEAR(s->normal.dot(s->tangent), 0, 1e-5);
+        const double turns = s->tangent_angle - tangent_angle(corrected(s->tangent));
+        EXPECT_LT(std::abs(turns - std::round(turns)), 1e-4);
+      }
+    }
+    EXPECT_GT(compared, 3000);
+  }
+}
+
+TEST(MatCapOnGpu, OcclusionMultiplies) {
+  Mesh mesh = test::sphere();
+  mesh.occlusion.assign(mesh.positions.size(), 0.25f);
+  const Frame with = test::render(test::scene_of(mesh, matcap()), orthographic(32));
+  const Frame without = test::render(test::scene_of(mesh, matcap(), {.occlusion = false}), orthographic(32));
+  EXPECT_LT((with.colour.rgb(12, 12) - 0.25f * without.colour.rgb(12, 12)).norm(), 1e-5);
+  EXPECT_FLOAT_EQ(static_cast<float>(surface_at(with, 12, 12)->occlusion), 0.25f);
+}
+
+TEST(MatCapOnGpu, TheBackOfAClothShowsItsTurnedNormalAndTheSameThreads) {
+  const Scene scene = test::scene_of(test::plane(), matcap());
+  Picture picture = orthographic(16);
+  const auto front = surface_at(test::render(scene, picture), 8, 8);
+  picture.rotation = rotation_xyz({kPi, 0, 0});
+  const auto back = surface_at(test::render(scene, picture), 8, 8);
+  ASSERT_TRUE(front && back);
+  EXPECT_LT((back->normal - Vec3(0, 0, 1)).norm(), 1e-5);
+  EXPECT_LT((back->tangent - Vec3(1, 0, 0)).norm(), 1e-5);
+  // The bitangent turns with the cloth, so its sign against cross(normal, tangent) changes.
+  EXPECT_EQ(front->bitangent_sign, 1);
+  EXPECT_EQ(back->bitangent_sign, -1);
+}
+
+TEST(MatCapOnGpu, AMeshThatWindsTheOtherWayLooksTheSame) {
+  Scene scene = test::scene_of(test::sphere(), matcap());
+  const Frame expected = test::render(scene, orthographic(32));
+  for (auto& triangle : scene.mesh.triangles) std::swap(triangle[1], triangle[2]);
+  const Frame frame = test::render(scene, orthographic(32));
+  EXPECT_LT((expected.colour.rgb(10, 9) - frame.colour.rgb(10, 9)).norm(), 1e-5);
+}
+
+TEST(MatCap, LookupIsExactAtTexelCentres) {
+  const Image image = test::test_matcap(16);
+  const MatCap matcap(image);
+  EXPECT_LT((matcap.lookup(disc_of_pixel(5, 9, 16)) - image.rgb(5, 9).cast<double>()).norm(), 1e-6);
+}
+
+TEST(MatCap, BackgroundOutsideTheDiscIsNeverSeen) {
+  Image image(33, 33, 3, 0.5f);
+  for (int y = 0; y < 33; ++y) {
+    for (int x = 0; x < 33; ++x) {
+      if (disc_of_pixel(x, y, 33).norm() > 1) image.set_rgb(x, y, {9, 9, 9});
+    }
+  }
+  const MatCap matcap(image);
+  for (double angle = 0; angle < 6.3; angle += 0.01) {
+    EXPECT_LT((matcap.lookup({std::cos(angle), std::sin(angle)}) - Vec3::Constant(0.5)).norm(), 1e-6);
+  }
+}
+
+TEST(MatCap, AlphaIsDividedOut) {
+  Image image(8, 8, 4, 0.25f);
+  for (int y = 0; y < 8; ++y) {
+    for (int x = 0; x < 8; ++x) image.at(x, y, 3) = 0.5f;
+  }
+  EXPECT_NEAR(MatCap(image).lookup({0, 0}).x(), 0.5, 1e-6);
+}
+
+}  // namespace
+}  // namespace sateen
