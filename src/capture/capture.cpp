@@ -129,14 +129,17 @@ class Builder {
             "--angles FILE");
       }
     }
-    const double typical = median(turning.strength);
     result_.axis = turning.axis;
     for (std::size_t k = 0; k < indices.size(); ++k) {
       CaptureFrame& frame = result_.frames[indices[k]];
       frame.turned = turning.angles[k];
       frame.confidence = turning.confidence[k];
-      // Against the surface all frames share, blur shows even where noise hides it.
-      if (known.empty() && turning.strength[k] < 0.55 * typical) frame.dropped = "blurred";
+      // Against the surface all frames share, blur shows even where noise hides it; the light changes this
+      // slowly.
+      const auto here = turning.strength.begin() + static_cast<std::ptrdiff_t>(k);
+      const auto before = here - static_cast<std::ptrdiff_t>(std::min<std::size_t>(k, 4));
+      const auto after = here + static_cast<std::ptrdiff_t>(std::min<std::size_t>(indices.size() - k, 5));
+      if (known.empty() && turning.strength[k] < 0.55 * median({before, after})) frame.dropped = "blurred";
       if (known.empty() && turning.confidence[k] < turning.confidence_floor) frame.dropped = kNoAngle;
     }
     if (known.empty()) recognise_equal_steps();

@@ -197,7 +197,8 @@ OutlineFit fit_outlines(std::span<const GreyPicture> frames, const Scouting& sco
   fit.centres.assign(n, scouting.centre);
   fit.residuals.assign(n, 0);
   // The swept circle is larger than the sphere by the wobble, which is unknown yet: the first search is wide.
-  const std::vector<double> reaches{std::clamp(0.08 * scouting.radius, 6.0, 16.0), 6, 4, 3, 3};
+  const double widest = std::clamp(0.15 * scouting.radius, 8.0, 30.0);
+  const std::vector<double> reaches{widest, std::max(6.0, widest / 2), 6, 4, 3, 3};
   for (std::size_t round = 0; round < reaches.size(); ++round) {
     const double margin = round == 0 ? 3 : 2;
     fit.plate = background_plate(frames, scouting, fit.centres, fit.radius, margin);

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Prints the table of errors against nuisances of docs/capture.md; not a test, it takes a minute.
+// Prints the table of errors against nuisances of docs/capture.md, or the rows whose name holds the argument;
+// not a test, it takes a minute.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <functional>
+#include <string_view>
 
 #include <fmt/format.h>
 
@@ -16,7 +18,10 @@ using namespace sateen;
 
 namespace {
 
+std::string_view wanted;  // only rows whose name holds this
+
 void row(const char* name, const std::function<void(test::Simulation&, CaptureOptions&)>& change) {
+  if (std::string_view(name).find(wanted) == std::string_view::npos) return;
   test::Simulation s;
   s.noise = 0.5;
   CaptureOptions options;
@@ -54,7 +59,8 @@ void row(const char* name, const std::function<void(test::Simulation&, CaptureOp
 
 }  // namespace
 
-int main() {
+int main(int argc, char** argv) {
+  if (argc > 1) wanted = argv[1];
   using S = test::Simulation;
   using O = CaptureOptions;
   fmt::print(
