@@ -202,7 +202,7 @@ std::vector<Blob> active_blobs(const Scouting& s, int width, int height, double 
     Blob blob;
     blob.circle = vote_circle(outline);
     blob.circle.support *= static_cast<double>(outline.size()) / 360;
-    if (blob.circle.radius < 5 || blob.circle.radius > 2.0 * std::max(width, height)) continue;
+    if (blob.circle.radius < 5 || blob.circle.radius > 0.6 * std::max(width, height)) continue;
     double inside = 0;
     double active = 0;
     for (int y = 0; y < height; ++y) {
