@@ -93,8 +93,8 @@ class Appearance {
   virtual Vec3 evaluate(const Surface& surface) const = 0;
   virtual ShaderBinding shader() const = 0;
   virtual Needs needs() const { return {}; }
-  /// Lights the surface with a latitude-longitude picture (light/environment.h), for appearances that are lit at all;
-  /// false: its light is baked in, and nothing changed.
+  /// Lights the surface with a latitude-longitude picture (light/environment.h), for appearances that are lit
+  /// at all; false: its light is baked in, and nothing changed.
   virtual bool set_environment(const Image&) { return false; }
   /// R: turning the tangent by 1/R of a turn changes nothing. The renderer interpolates tangent angles modulo
   /// 1/R.

@@ -9,8 +9,8 @@ namespace sateen {
 
 /// Pictures of a surface, all of one size, row 0 on top; what is not there is empty.
 struct ShadeInputs {
-  Image normals = {};  ///< x, y, z in view space, any length; a zero vector (or less than 3 channels' worth)
-                       ///< is empty
+  Image normals = {};   ///< x, y, z in view space, any length; a zero vector (or less than 3 channels' worth)
+                        ///< is empty
   Image tangents = {};  ///< x, y, z in view space, any length; zero is empty too
   Image positions =
       {};  ///< x, y, z in view space, the eye at the origin; without them the view is +z everywhere
