@@ -9,6 +9,7 @@
 #include "commands.h"
 #include "parse.h"
 #include "sateen/core/direction.h"
+#include "sateen/core/error.h"
 #include "sateen/gpu/context.h"
 #include "sateen/io/image.h"
 #include "sateen/io/video.h"
@@ -74,6 +75,12 @@ fs::path numbered(const fs::path& output, int index) {
       fmt::format("{}_{:04}{}", output.stem().string(), index, output.extension().string()));
 }
 
+void make_folder(const fs::path& folder) {
+  std::error_code code;
+  fs::create_directories(folder, code);
+  if (code) throw Error(fmt::format("{}: cannot be made: {}", folder.string(), code.message()));
+}
+
 void write_aovs(const Frame& frame, const fs::path& picture, const std::vector<std::string>& names) {
   for (const std::string& name : names) {
     fs::path path = picture;
@@ -116,7 +123,7 @@ void run(const Arguments& arguments) {
     write_video(arguments.output, count, arguments.frames_per_second, [&](int i) { return draw(i).colour; });
     return;
   }
-  if (arguments.turntable > 0 && !arguments.output.has_extension()) fs::create_directories(arguments.output);
+  if (arguments.turntable > 0 && !arguments.output.has_extension()) make_folder(arguments.output);
   for (int i = 0; i < count; ++i) {
     const fs::path path = arguments.turntable > 0 ? numbered(arguments.output, i) : arguments.output;
     const Frame frame = draw(i);
