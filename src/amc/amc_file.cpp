@@ -19,6 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
+constexpr int kZstdLevel = 5;  // a few per cent larger than the default and several times faster
 constexpr const char* kProvenancePrefix = "sateen.provenance.";
 
 [[noreturn]] void fail(const fs::path& path, const std::string& what) {
@@ -66,7 +67,7 @@ void write_ktx2_table(const fs::path& path, const AmcTable& table) {
                       {"sateen.symmetry", std::to_string(table.symmetry)},
                       {"sateen.isotropic", table.isotropic ? "true" : "false"}};
   for (const auto& [key, value] : table.provenance) texture.metadata[kProvenancePrefix + key] = value;
-  write_ktx2(path, texture);
+  write_ktx2(path, texture, kZstdLevel);
 }
 
 AmcTable read_ktx2_table(const fs::path& path) {

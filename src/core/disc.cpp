@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "sateen/core/parallel.h"
 
@@ -29,6 +30,50 @@ void sample_trusted(const Image& image, double x, double y, double inset, std::v
   for (double& v : colour) v /= sum;
 }
 
+/// fill_from_rim for the pixels whose centres lie within `reach` of the picture's.
+void fill_ring(Image& image, double inset, double reach) {
+  const int size = image.width;
+  const double half = size / 2.0;
+  // One pixel inside the trusted rim: of the four pixels a sample there blends, the inner one is always
+  // trusted.
+  const double source_radius = half - inset - 1;
+  if (source_radius < 0.5) return;
+  // Pixels with centres this near are trusted whatever their corners do.
+  const double trusted = std::max(0.0, half - inset - 0.75);
+  parallel_for(size, [&](int y) {
+    std::vector<double> colour(static_cast<std::size_t>(image.channels));
+    const double dy = y + 0.5 - half;
+    for (int x = 0; x < size; ++x) {
+      const double dx = x + 0.5 - half;
+      const double squared = dx * dx + dy * dy;
+      if (squared <= trusted * trusted || squared > reach * reach || inside_disc(x, y, size, inset)) continue;
+      const double scale = source_radius / std::sqrt(squared);
+      sample_trusted(image, half + dx * scale, half + dy * scale, inset, colour);
+      std::ranges::transform(colour, image.pixel(x, y).begin(),
+                             [](double v) { return static_cast<float>(v); });
+    }
+  });
+}
+
+/// Gives pixels farther than `radius` from the centre the colour a pixel inside it, where all pixels are
+/// good.
+void fill_beyond(Image& image, double radius) {
+  const double half = image.width / 2.0;
+  std::vector<double> colour(static_cast<std::size_t>(image.channels));
+  for (int y = 0; y < image.height; ++y) {
+    for (int x = 0; x < image.width; ++x) {
+      const double dx = x + 0.5 - half;
+      const double dy = y + 0.5 - half;
+      const double distance = std::hypot(dx, dy);
+      if (distance <= radius) continue;
+      const double scale = std::max(0.0, radius - 1.5) / distance;
+      sample_bilinear(image, half + dx * scale, half + dy * scale, colour);
+      std::ranges::transform(colour, image.pixel(x, y).begin(),
+                             [](double v) { return static_cast<float>(v); });
+    }
+  }
+}
+
 }  // namespace
 
 bool inside_disc(int x, int y, int size, double inset) {
@@ -40,29 +85,20 @@ bool inside_disc(int x, int y, int size, double inset) {
 }
 
 void fill_from_rim(Image& image, double inset) {
-  const int size = image.width;
-  if (size < 4) return;
-  const double half = size / 2.0;
-  // One pixel inside the trusted rim: of the four pixels a sample there blends, the inner one is always
-  // trusted.
-  const double source_radius = half - inset - 1;
-  parallel_for(size, [&](int y) {
-    std::vector<double> colour(static_cast<std::size_t>(image.channels));
-    for (int x = 0; x < size; ++x) {
-      if (inside_disc(x, y, size, inset)) continue;
-      const double dx = x + 0.5 - half;
-      const double dy = y + 0.5 - half;
-      const double scale = source_radius / std::hypot(dx, dy);
-      sample_trusted(image, half + dx * scale, half + dy * scale, inset, colour);
-      std::ranges::transform(colour, image.pixel(x, y).begin(),
-                             [](double v) { return static_cast<float>(v); });
-    }
-  });
+  fill_ring(image, inset, std::numeric_limits<double>::infinity());
 }
 
 Image resized_disc(Image image, int size, double inset) {
-  fill_from_rim(image, inset);
-  return resized(image, size, size);
+  const double scale = static_cast<double>(image.width) / size;
+  if (scale < 2) {
+    fill_from_rim(image, inset);
+    return resized(image, size, size);
+  }
+  // Only what texels on the rim average is filled in the large picture, the rest in the small one.
+  fill_ring(image, inset, image.width / 2.0 + 1.5 * scale + 1);
+  Image small = resized(image, size, size);
+  fill_beyond(small, size / 2.0 + 0.75);
+  return small;
 }
 
 }  // namespace sateen
