@@ -43,15 +43,19 @@ void fill_ring(Image& image, double inset, double reach) {
   parallel_for(size, [&](int y) {
     std::vector<double> colour(static_cast<std::size_t>(image.channels));
     const double dy = y + 0.5 - half;
-    for (int x = 0; x < size; ++x) {
+    const auto fill = [&](int x) {
       const double dx = x + 0.5 - half;
       const double squared = dx * dx + dy * dy;
-      if (squared <= trusted * trusted || squared > reach * reach || inside_disc(x, y, size, inset)) continue;
+      if (squared > reach * reach || inside_disc(x, y, size, inset)) return;
       const double scale = source_radius / std::sqrt(squared);
       sample_trusted(image, half + dx * scale, half + dy * scale, inset, colour);
       std::ranges::transform(colour, image.pixel(x, y).begin(),
                              [](double v) { return static_cast<float>(v); });
-    }
+    };
+    const double chord = std::sqrt(std::max(0.0, trusted * trusted - dy * dy));
+    const int left_end = chord > 0 ? static_cast<int>(std::ceil(half - chord - 0.5)) : size;
+    for (int x = 0; x < left_end; ++x) fill(x);
+    for (int x = std::max(left_end, static_cast<int>(half + chord - 0.5)); x < size; ++x) fill(x);
   });
 }
 

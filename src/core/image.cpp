@@ -40,6 +40,22 @@ std::vector<Footprint> footprints(int from, int to) {
   return result;
 }
 
+/// One row of `image` averaged into the same row of `narrow`. kChannels lets the compiler keep sums in
+/// registers; 0 is any number.
+template <int kChannels>
+void resize_row(const Image& image, const std::vector<Footprint>& columns, int y, Image& narrow) {
+  const std::size_t channels = static_cast<std::size_t>(kChannels > 0 ? kChannels : image.channels);
+  for (int x = 0; x < narrow.width; ++x) {
+    const Footprint& column = columns[static_cast<std::size_t>(x)];
+    const float* in = image.data.data() + image.index(column.first, y);
+    float* out = narrow.data.data() + narrow.index(x, y);
+    for (const float weight : column.weights) {
+      for (std::size_t c = 0; c < channels; ++c) out[c] += weight * in[c];
+      in += channels;
+    }
+  }
+}
+
 }  // namespace
 
 Image::Image(int width_, int height_, int channels_, float value)
@@ -102,13 +118,15 @@ Image resized(const Image& image, int width, int height) {
   const auto rows = footprints(image.height, height);
   Image narrow(width, image.height, image.channels);
   parallel_for(image.height, [&](int y) {
-    for (int x = 0; x < width; ++x) {
-      const Footprint& column = columns[static_cast<std::size_t>(x)];
-      const auto out = narrow.pixel(x, y);
-      for (std::size_t i = 0; i < column.weights.size(); ++i) {
-        const auto in = image.pixel(column.first + static_cast<int>(i), y);
-        for (std::size_t c = 0; c < out.size(); ++c) out[c] += column.weights[i] * in[c];
-      }
+    switch (image.channels) {
+      case 1:
+        return resize_row<1>(image, columns, y, narrow);
+      case 3:
+        return resize_row<3>(image, columns, y, narrow);
+      case 4:
+        return resize_row<4>(image, columns, y, narrow);
+      default:
+        return resize_row<0>(image, columns, y, narrow);
     }
   });
   Image result(width, height, image.channels);
