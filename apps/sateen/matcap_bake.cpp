@@ -59,7 +59,7 @@ void add_matcap_bake(CLI::App& parent) {
   auto arguments = std::make_shared<Arguments>();
   CLI::App* command =
       add_command(parent, "bake", "Turn a decomposed MatCap, edited or not, back into pictures",
-                  "sateen matcap bake gold.ktx2 --turn 0,40,0 -o gold_turned.png");
+                  "sateen matcap bake decomposed/lead.ktx2 --turn 0,40,0 -o lead_turned.png");
   command->add_option("matcap", arguments->input, "The .ktx2 that decompose wrote")->required();
   command
       ->add_option("-o,--output", arguments->output,

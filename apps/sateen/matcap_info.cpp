@@ -40,7 +40,7 @@ void add_matcap_info(CLI::App& parent) {
   };
   auto arguments = std::make_shared<Arguments>();
   CLI::App* command = add_command(parent, "info", "Say everything about a decomposed MatCap",
-                                  "sateen matcap info gold.ktx2 --json");
+                                  "sateen matcap info decomposed/lead.ktx2 --json");
   command->add_option("matcap", arguments->input, "The .ktx2 that decompose wrote")->required();
   command->add_flag("--json", arguments->json,
                     "Print JSON: low.variance, low.base_color, high.variance, ...");

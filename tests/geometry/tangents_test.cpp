@@ -246,7 +246,7 @@ TEST(Tangents, OfASliverDoNotDisturbItsNeighbours) {
   for (std::size_t i = 0; i < 25; ++i) EXPECT_LT((tangent(mesh, i) - Vec3f::UnitX()).norm(), 1e-5f) << i;
 }
 
-TEST(Tangents, AMeshWithoutUvsIsAnErrorThatSaysWhatToDo) {
+TEST(Tangents, AMeshWithoutUvsIsAnErrorThatSaysWhatHelps) {
   Mesh mesh = make_grid(2, 2, on_plane);
   mesh.uvs.clear();
   try {
