@@ -15,7 +15,8 @@ if(SATEEN_SANITIZE)
   target_link_options(sateen_options INTERFACE -fsanitize=${SATEEN_SANITIZE})
 endif()
 
-# sateen_test(NAME SOURCES...): a GoogleTest program test_NAME whose cases ctest lists as NAME.Suite.Case.
+# sateen_test(NAME SOURCES...): a GoogleTest program test_NAME whose cases ctest lists as NAME.Suite.Case, or, with
+# SATEEN_TEST_SHARDS, as NAME.1, NAME.2 and so on, each a share of them.
 function(sateen_test name)
   add_executable(test_${name} ${ARGN})
   target_link_libraries(test_${name} PRIVATE sateen sateen_options sateen_test_support GTest::gtest_main GTest::gmock)
@@ -28,7 +29,16 @@ function(sateen_test name)
     target_precompile_headers(test_${name} PRIVATE
       <gmock/gmock.h> <gtest/gtest.h> <Eigen/Geometry> <fmt/format.h> <filesystem> <functional> <string> <vector>)
   endif()
-  gtest_discover_tests(test_${name} TEST_PREFIX "${name}." DISCOVERY_MODE PRE_TEST PROPERTIES TIMEOUT 300)
+  if(SATEEN_TEST_SHARDS)
+    foreach(shard RANGE 1 ${SATEEN_TEST_SHARDS})
+      math(EXPR index "${shard} - 1")
+      add_test(NAME ${name}.${shard} COMMAND test_${name})
+      set_tests_properties(${name}.${shard} PROPERTIES
+        ENVIRONMENT "GTEST_TOTAL_SHARDS=${SATEEN_TEST_SHARDS};GTEST_SHARD_INDEX=${index}" TIMEOUT 600)
+    endforeach()
+  else()
+    gtest_discover_tests(test_${name} TEST_PREFIX "${name}." DISCOVERY_MODE PRE_TEST PROPERTIES TIMEOUT 300)
+  endif()
 endfunction()
 
 # sateen_bench(NAME SOURCES...): a Google Benchmark program bench_NAME.

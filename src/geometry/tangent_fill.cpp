@@ -44,10 +44,6 @@ std::vector<Link> links_to_fill(const Mesh& mesh, const std::vector<char>& known
   return links;
 }
 
-Vec3 across(const Vec3& direction, const Vec3& normal) {
-  return direction - normal.dot(direction) * normal;
-}
-
 // The tangent a vertex takes from its neighbours of earlier rounds; false when it has none.
 bool take_from_neighbours(Mesh& mesh, std::uint32_t vertex, std::span<const Link> links,
                           const std::vector<int>& round, int now) {

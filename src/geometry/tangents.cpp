@@ -27,10 +27,6 @@ Vec3 corner(const Mesh& mesh, std::uint32_t vertex) {
   return mesh.positions[vertex].cast<double>();
 }
 
-Vec3 across(const Vec3& direction, const Vec3& normal) {
-  return direction - normal.dot(direction) * normal;
-}
-
 // Area times the gradients of u and v over a triangle; false for slivers and triangles without UV area.
 struct Gradients {
   Vec3 u;

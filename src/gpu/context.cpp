@@ -3,6 +3,7 @@
 
 #include <array>
 #include <string_view>
+#include <vector>
 
 #include <epoxy/egl.h>
 #include <epoxy/gl.h>

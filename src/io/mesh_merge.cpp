@@ -14,8 +14,6 @@
 namespace sateen {
 namespace {
 
-constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
-
 Vec3f vector(const aiVector3D& v) {
   return {v.x, v.y, v.z};
 }
@@ -154,7 +152,8 @@ MergedMesh merge_scene(const aiScene& scene) {
     vertices += part.mesh->mNumVertices;
     faces += part.mesh->mNumFaces;
   }
-  if (vertices >= kNone) throw Error("a mesh with more than 4294967294 vertices cannot be read");
+  if (vertices >= std::numeric_limits<std::uint32_t>::max())
+    throw Error("a mesh with more than 4294967294 vertices cannot be read");
   mesh.positions.reserve(vertices);
   if (attributes.normals) mesh.normals.reserve(vertices);
   if (attributes.tangents) mesh.tangents.reserve(vertices);
