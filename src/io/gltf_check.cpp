@@ -11,8 +11,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "sateen/core/error.h"
 #include "sateen/io/file.h"
+#include "sateen/io/file_error.h"
 #include "sateen/io/mesh_material.h"
 
 namespace sateen {
@@ -26,10 +26,6 @@ using Size = std::uint64_t;
 // it.
 constexpr std::array<std::string_view, 3> kUnreadable = {"KHR_draco_mesh_compression",
                                                          "EXT_meshopt_compression", "KHR_mesh_quantization"};
-
-[[noreturn]] void fail(const fs::path& path, const std::string& what) {
-  throw Error(fmt::format("{}: {}", path.string(), what));
-}
 
 struct Document {
   json root;

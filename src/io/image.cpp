@@ -27,25 +27,25 @@ constexpr double kMaxCompression = 4096;
 
 std::unique_ptr<OIIO::ImageInput> open(const fs::path& path) {
   std::error_code code;
-  if (!fs::exists(path, code)) image_fail(path, "no such file");
-  if (fs::is_directory(path, code)) image_fail(path, "is a folder, a picture is needed");
-  if (!fs::is_regular_file(path, code)) image_fail(path, "is no regular file, a picture is needed");
+  if (!fs::exists(path, code)) fail(path, "no such file");
+  if (fs::is_directory(path, code)) fail(path, "is a folder, a picture is needed");
+  if (!fs::is_regular_file(path, code)) fail(path, "is no regular file, a picture is needed");
   OIIO::ImageSpec wishes;
   wishes["oiio:UnassociatedAlpha"] = 1;
   auto input = OIIO::ImageInput::open(path.string(), &wishes);
-  if (!input) image_fail(path, "cannot be read as a picture: " + image_reason(OIIO::geterror()));
+  if (!input) fail(path, "cannot be read as a picture: " + image_reason(OIIO::geterror()));
   const OIIO::ImageSpec& spec = input->spec();
-  if (spec.width < 1 || spec.height < 1 || spec.nchannels < 1) image_fail(path, "has no pixels");
-  if (spec.depth > 1) image_fail(path, "is a volume, a flat picture is needed");
-  if (spec.deep) image_fail(path, "is a deep picture, a flat one is needed");
+  if (spec.width < 1 || spec.height < 1 || spec.nchannels < 1) fail(path, "has no pixels");
+  if (spec.depth > 1) fail(path, "is a volume, a flat picture is needed");
+  if (spec.deep) fail(path, "is a deep picture, a flat one is needed");
   const double stored = static_cast<double>(fs::file_size(path, code));
   const double pixel_bytes = static_cast<double>(spec.pixel_bytes(true));
   for (const auto& [width, height] :
        {std::pair{spec.width, spec.height}, std::pair{spec.full_width, spec.full_height}}) {
     const double bytes = pixel_bytes * width * height;
     if (code || bytes > stored * kMaxCompression || bytes > 64e9) {
-      image_fail(
-          path, fmt::format("claims {} x {} pixels, more than its {} bytes can hold", width, height, stored));
+      fail(path,
+           fmt::format("claims {} x {} pixels, more than its {} bytes can hold", width, height, stored));
     }
   }
   return input;
@@ -114,20 +114,20 @@ void check_finite(const fs::path& path, const Image& image, const PixelRect& reg
   const auto bad = std::ranges::find_if_not(image.data, [](float v) { return std::isfinite(v); });
   if (bad == image.data.end()) return;
   const auto pixel = (bad - image.data.begin()) / image.channels;
-  image_fail(path, fmt::format("has a value that is not finite at pixel ({}, {})",
-                               region.x + pixel % image.width, region.y + pixel / image.width));
+  fail(path, fmt::format("has a value that is not finite at pixel ({}, {})", region.x + pixel % image.width,
+                         region.y + pixel / image.width));
 }
 
 Decoded decode(const fs::path& path, const ReadImageOptions& options) {
   const auto input = open(path);
   const OIIO::ImageSpec& spec = input->spec();
   if (spec.get_int_attribute("oiio:Movie") != 0 && input->seek_subimage(1, 0)) {
-    image_fail(path, "is animated; a still picture is needed");
+    fail(path, "is animated; a still picture is needed");
   }
   input->seek_subimage(0, 0);
   const std::string space(
       spec.get_string_attribute("jpeg:ColorSpace", spec.get_string_attribute("tiff:ColorSpace")));
-  if (space == "CMYK" || space == "YCbCrK") image_fail(path, "is CMYK; convert it to RGB first");
+  if (space == "CMYK" || space == "YCbCrK") fail(path, "is CMYK; convert it to RGB first");
 
   Decoded result;
   if (!spec.format.is_floating_point()) result.steps = spec.format.size() == 1 ? 255 : 65535;
@@ -143,8 +143,8 @@ Decoded decode(const fs::path& path, const ReadImageOptions& options) {
                       orientation >= 5 ? spec.full_width : spec.full_height};
   const PixelRect region = options.region.value_or(all);
   if (!fits(region, all.width, all.height)) {
-    image_fail(path, fmt::format("the {} x {} pixels from ({}, {}) leave the {} x {} picture", region.width,
-                                 region.height, region.x, region.y, all.width, all.height));
+    fail(path, fmt::format("the {} x {} pixels from ({}, {}) leave the {} x {} picture", region.width,
+                           region.height, region.x, region.y, all.width, all.height));
   }
   const std::string_view type = input->format_name();
   if (type == "jpeg") {
@@ -158,7 +158,7 @@ Decoded decode(const fs::path& path, const ReadImageOptions& options) {
   }
   result.image = Image(spec.width, spec.height, channels);
   if (!input->read_image(0, 0, 0, channels, OIIO::TypeDesc::FLOAT, result.image.data.data())) {
-    image_fail(path, "is truncated or corrupt: " + image_reason(input->geterror()));
+    fail(path, "is truncated or corrupt: " + image_reason(input->geterror()));
   }
   if (type == "openexr") result.image = in_display_window(spec, std::move(result.image));
   if (orientation > 1) result.image = turned_upright(result.image, orientation);

@@ -36,9 +36,9 @@ ImageRowReader::ImageRowReader(const std::filesystem::path& path)
   OIIO::ImageSpec wishes;
   wishes["oiio:UnassociatedAlpha"] = 1;
   file_->input = OIIO::ImageInput::open(path.string(), &wishes);
-  if (!file_->input) image_fail(path, "cannot be read as a picture");
+  if (!file_->input) fail(path, "cannot be read as a picture");
   if (file_->input->spec().get_int_attribute("Orientation", 1) > 1) {
-    image_fail(path, "is turned by its EXIF orientation; save it upright");
+    fail(path, "is turned by its EXIF orientation; save it upright");
   }
 }
 
@@ -56,7 +56,7 @@ void ImageRowReader::read(std::span<float> out) {
   OIIO::ImageInput& input = *file_->input;
   const OIIO::ImageSpec& spec = input.spec();
   const auto check = [&](bool fine) {
-    if (!fine) image_fail(path_, "is truncated or corrupt: " + input.geterror());
+    if (!fine) fail(path_, "is truncated or corrupt: " + input.geterror());
   };
   if (spec.tile_width == 0) {
     check(input.read_scanlines(0, 0, next_, next_ + count, 0, 0, channels(), OIIO::TypeDesc::FLOAT,
@@ -78,9 +78,9 @@ void ImageRowReader::read(std::span<float> out) {
     const auto bad = std::ranges::find_if_not(out, [](float v) { return std::isfinite(v); });
     if (bad != out.end()) {
       const auto at = static_cast<std::size_t>(bad - out.begin());
-      image_fail(path_, fmt::format("has a value that is not finite at pixel ({}, {})",
-                                    at % row / static_cast<std::size_t>(channels()),
-                                    static_cast<std::size_t>(next_) + at / row));
+      fail(path_, fmt::format("has a value that is not finite at pixel ({}, {})",
+                              at % row / static_cast<std::size_t>(channels()),
+                              static_cast<std::size_t>(next_) + at / row));
     }
   }
   next_ += count;
@@ -99,9 +99,9 @@ ImageRowWriter::ImageRowWriter(const std::filesystem::path& file, const std::fil
   spec["oiio:ColorSpace"] = "Linear";
   spec["Software"] = "Sateen";
   file_->output = OIIO::ImageOutput::create(file.string());
-  if (!file_->output) image_fail(name, "unknown picture type");
+  if (!file_->output) fail(name, "unknown picture type");
   if (!file_->output->open(file.string(), spec))
-    image_fail(name, "cannot be written: " + file_->output->geterror());
+    fail(name, "cannot be written: " + file_->output->geterror());
 }
 
 ImageRowWriter::~ImageRowWriter() = default;
@@ -110,13 +110,13 @@ void ImageRowWriter::write(std::span<const float> rows) {
   const std::size_t row = static_cast<std::size_t>(width_) * static_cast<std::size_t>(channels_);
   const int count = static_cast<int>(rows.size() / row);
   if (!file_->output->write_scanlines(next_, next_ + count, 0, OIIO::TypeDesc::FLOAT, rows.data())) {
-    image_fail(name_, "cannot be written: " + file_->output->geterror());
+    fail(name_, "cannot be written: " + file_->output->geterror());
   }
   next_ += count;
 }
 
 void ImageRowWriter::close() {
-  if (!file_->output->close()) image_fail(name_, "cannot be written: " + file_->output->geterror());
+  if (!file_->output->close()) fail(name_, "cannot be written: " + file_->output->geterror());
 }
 
 }  // namespace sateen

@@ -40,16 +40,16 @@ void keep_in_half_range(Image& image) {
 void encode(const fs::path& target, const fs::path& path, OIIO::Filesystem::IOProxy* memory,
             OIIO::ImageSpec spec, const Image& image) {
   auto output = OIIO::ImageOutput::create(path.string());
-  if (!output) image_fail(target, "cannot be written: " + image_reason(OIIO::geterror()));
+  if (!output) fail(target, "cannot be written: " + image_reason(OIIO::geterror()));
   spec["Software"] = "Sateen";
   if ((memory != nullptr && !output->set_ioproxy(memory)) || !output->open(path.string(), spec) ||
       !output->write_image(OIIO::TypeDesc::FLOAT, image.data.data()) || !output->close()) {
-    image_fail(target, "cannot be written: " + image_reason(output->geterror()));
+    fail(target, "cannot be written: " + image_reason(output->geterror()));
   }
 }
 
 void write(const fs::path& path, const OIIO::ImageSpec& spec, const Image& image) {
-  if (image.empty()) image_fail(path, "cannot be written: the picture has no pixels");
+  if (image.empty()) fail(path, "cannot be written: the picture has no pixels");
   const std::string extension = extension_of(path);
   if (extension == ".tif" || extension == ".tiff") {  // OpenImageIO 2.4 writes broken TIFFs into memory
     write_atomically(path, [&](const fs::path& temporary) { encode(path, temporary, nullptr, spec, image); });
@@ -69,7 +69,7 @@ void write_image(const fs::path& path, const Image& image) {
   const bool floating = extension == ".exr" || extension == ".hdr";
   if (!floating && extension != ".png" && extension != ".jpg" && extension != ".jpeg" &&
       extension != ".tif" && extension != ".tiff") {
-    image_fail(path, "unknown picture type; use .png, .jpg, .tif, .exr or .hdr");
+    fail(path, "unknown picture type; use .png, .jpg, .tif, .exr or .hdr");
   }
   Image out = image;
   if (extension == ".hdr") out = with_channels(out, 3);
@@ -105,7 +105,7 @@ void write_data(const fs::path& path, const Image& image) {
   if (extension == ".png") {
     spec.format = OIIO::TypeDesc::UINT16;
   } else if (extension != ".exr") {
-    image_fail(path, "data pictures are written as .exr or .png");
+    fail(path, "data pictures are written as .exr or .png");
   }
   spec["oiio:ColorSpace"] = "Linear";
   spec["oiio:UnassociatedAlpha"] = 1;
@@ -113,12 +113,12 @@ void write_data(const fs::path& path, const Image& image) {
 }
 
 void write_layers(const fs::path& path, std::span<const ImageLayer> layers) {
-  if (extension_of(path) != ".exr") image_fail(path, "layers are written as .exr");
-  if (layers.empty()) image_fail(path, "there are no layers to write");
+  if (extension_of(path) != ".exr") fail(path, "layers are written as .exr");
+  if (layers.empty()) fail(path, "there are no layers to write");
   int channels = 0;
   for (const ImageLayer& layer : layers) {
     if (layer.image.width != layers[0].image.width || layer.image.height != layers[0].image.height) {
-      image_fail(path, fmt::format("layer {} differs in size from layer {}", layer.name, layers[0].name));
+      fail(path, fmt::format("layer {} differs in size from layer {}", layer.name, layers[0].name));
     }
     channels += layer.image.channels;
   }

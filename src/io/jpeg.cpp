@@ -64,7 +64,7 @@ Image decode_jpeg(const std::filesystem::path& path, std::span<const std::byte> 
   errors.base.error_exit = leave;
   errors.base.emit_message = on_message;
   if (setjmp(errors.escape) != 0) {
-    image_fail(path, "is truncated or corrupt: " + image_reason(errors.message));
+    fail(path, "is truncated or corrupt: " + image_reason(errors.message));
   }
   jpeg_create_decompress(&info);
   jpeg_mem_src(&info, reinterpret_cast<const unsigned char*>(bytes.data()),

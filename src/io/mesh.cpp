@@ -7,8 +7,8 @@
 #include <assimp/scene.h>
 #include <fmt/format.h>
 
-#include "sateen/core/error.h"
 #include "sateen/io/file.h"
+#include "sateen/io/file_error.h"
 #include "sateen/io/gltf_check.h"
 #include "sateen/io/mesh_clean.h"
 #include "sateen/io/mesh_material.h"
@@ -19,10 +19,6 @@ namespace sateen {
 namespace {
 
 namespace fs = std::filesystem;
-
-[[noreturn]] void fail(const fs::path& path, const std::string& what) {
-  throw Error(fmt::format("{}: {}", path.string(), what));
-}
 
 Model read_ply_model(const fs::path& path) {
   Model model;
