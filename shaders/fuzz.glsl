@@ -6,38 +6,26 @@
 #define FUZZ_SGGX_SYMMETRIC 1
 #define FUZZ_SCHLICK 2
 
-// sigma: projected area of the fibre's flakes.
-float fuzz_projected_area(float alpha, float cosine) {
-  return sqrt(max(0.0, 1.0 - cosine * cosine * (1.0 - alpha * alpha)));
+// 1 - exp(-x) without cancellation for thin layers; `passing` is exp(-x), at hand where x is a sum.
+float fuzz_scattered(float x, float passing) {
+  return x < 0.01 ? x * (1.0 - x * (0.5 - x * 0.16666667)) : 1.0 - passing;
 }
 
-// 1 - exp(-x) without cancellation for thin layers.
-float fuzz_scattered(float x) {
-  return x < 0.01 ? x * (1.0 - x * (0.5 - x * 0.16666667)) : 1.0 - exp(-x);
-}
-
-// p(u, v). `schlick`: k, and r(k) (1 - k^2) / (4 pi).
+// p(u, v) of light and view above the horizon. `schlick`: k, and r(k) (1 - k^2) / (4 pi).
 float fuzz_phase(int kind, float alpha, vec2 schlick, vec3 fibre, vec3 light, vec3 view) {
   vec3 sum = light + view;
   float squared = dot(sum, sum);
   float along = dot(sum, fibre);
-  float cosine2 = squared > 1e-12 ? min(along * along / squared, 1.0) : 0.0;
   if (kind == FUZZ_SCHLICK) {
-    float q = 1.0 - schlick.x * sqrt(1.0 - cosine2);
+    float q = 1.0 - schlick.x * sqrt(max(1.0 - along * along / squared, 0.0));
     return schlick.y / (q * q);
   }
   float a2 = alpha * alpha;
-  float q = cosine2 * (1.0 - a2) + a2;
-  float area = fuzz_projected_area(alpha, dot(light, fibre));
-  if (kind == FUZZ_SGGX_SYMMETRIC) area = max(area, fuzz_projected_area(alpha, dot(view, fibre)));
-  return alpha * a2 * 0.07957747154594767 / (q * q * area);  // D / 4; 1 / (4 pi)
-}
-
-// The layer's factor besides the phase function, times the cosine of the light:
-// (1 - exp(-d (1/u.n + 1/v.n))) u.n / (u.n + v.n).
-float fuzz_layer(float density, float light_cosine, float view_cosine) {
-  float sum = light_cosine + view_cosine;
-  return fuzz_scattered(density * sum / (light_cosine * view_cosine)) * light_cosine / sum;
+  float ratio = squared / (along * along * (1.0 - a2) + a2 * squared);
+  float cosine = dot(light, fibre);
+  if (kind == FUZZ_SGGX_SYMMETRIC) cosine = min(abs(cosine), abs(dot(view, fibre)));  // the larger sigma
+  float area2 = 1.0 - cosine * cosine * (1.0 - a2);
+  return alpha * a2 * 0.07957747154594767 * ratio * ratio * inversesqrt(area2);  // D / (4 sigma); 1 / (4 pi)
 }
 
 // G~ of the slides; c are the coefficients bench_fuzz_fit prints.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A diffuse base, a GGX reflection and a layer of fuzz under lamps and surroundings (src/brdf/layered.h, which it follows
 // line by line); the ambient terms are Patry's, "Samurai Shading" (2020), by table or as printed.
-// needs: surface.glsl hemisphere_table.glsl environment.glsl punctual.glsl fibre_diffuse.glsl ggx.glsl fuzz.glsl
+// needs: surface.glsl hemisphere_table.glsl fibre_table.glsl environment.glsl punctual.glsl fibre_diffuse.glsl ggx.glsl fuzz.glsl
 
 // Layers a material does not have are left out at compile time: layered_no_*.glsl and layered_slides.glsl in front of this
 // file define the switches otherwise.
@@ -14,6 +14,12 @@
 #ifndef LAYERED_FUZZ
 #define LAYERED_FUZZ true
 #endif
+#ifndef LAYERED_FUZZ_PHASE
+#define LAYERED_FUZZ_PHASE FUZZ_SGGX
+#endif
+#ifndef LAYERED_FUZZ_SMOOTHING
+#define LAYERED_FUZZ_SMOOTHING false
+#endif
 #ifndef LAYERED_FUZZ_SLIDES
 #define LAYERED_FUZZ_SLIDES false
 #endif
@@ -22,6 +28,7 @@
 #endif
 
 uniform vec3 base_colour;
+uniform vec3 base_bands[3];  // Legendre coefficients of what a diffuse base receives, under the fuzz if there is one
 uniform bool base_fibres;
 uniform vec2 base_lobe;  // the fibres' light is (|l across the fibre| + x n.l) y
 uniform vec3 base_moments;  // of that over the hemisphere: xx, yy, zz
@@ -39,19 +46,18 @@ uniform sampler2D ggx_albedo_table;  // scale, bias
 
 uniform float fuzz_density;
 uniform float fuzz_alpha;
-uniform int fuzz_phase_kind;
 uniform vec2 fuzz_schlick;
 uniform vec3 fuzz_fibre;
+uniform float fuzz_smoothing;  // of the layer's normal, from the shading normal to the mesh's
 uniform vec2 fuzz_axis;
 uniform vec3 fuzz_colour;
 uniform vec4 fuzz_visibility;
-uniform float fuzz_passing_albedo;  // Q
-uniform float fuzz_down_albedo;     // R
-uniform float fuzz_down_weight;     // 0 leaves P_s out
+uniform float fuzz_down_weight;  // 0 leaves P_s out
 uniform vec3 fuzz_down_low;
 uniform vec3 fuzz_down_high;
-uniform sampler2D fuzz_scattering_table;  // P_s of a light; response of a view over G~
-uniform sampler2D fuzz_gaze_table;        // where a view's fuzz looks
+uniform vec2 fuzz_table_along;         // fibre_table.glsl
+uniform sampler2D fuzz_down_table;     // P_s of a light
+uniform sampler2D fuzz_ambient_table;  // where a view's fuzz looks: x, y over v.y, z; w: its response over G~
 
 const float LAYERED_LOWEST_VIEW = 1e-3;
 const float SIMPLE_DENSITY = 0.5;
@@ -71,20 +77,65 @@ float layered_albedo(vec3 w) {
   return albedo.x + albedo.y;
 }
 
+// The layer of fuzz as one view meets it.
+struct Layer {
+  mat3 frame;
+  vec3 view;
+  float depth;    // d / v.n
+  float leaving;  // P_e
+};
+
+mat3 layered_frame(Surface s, vec3 normal) {
+  vec3 tangent = s.tangent - normal * dot(normal, s.tangent);
+  tangent *= inversesqrt(max(dot(tangent, tangent), 1e-12));
+  return mat3(tangent, s.bitangent_sign * cross(normal, tangent), normal);
+}
+
+// Into the frame; interpolated normals turn away from the eye at the rim.
+vec3 layered_view(vec3 view, mat3 frame) {
+  vec3 v = view * frame;
+  return v.z < LAYERED_LOWEST_VIEW ? normalize(vec3(v.xy, LAYERED_LOWEST_VIEW)) : v;
+}
+
+Layer layered_layer(Surface s, mat3 frame, vec3 view) {
+  Layer layer = Layer(frame, view, 0.0, 1.0);
+  if (LAYERED_FUZZ && LAYERED_FUZZ_SMOOTHING) {
+    layer.frame = layered_frame(s, normalize(mix(s.normal, s.mesh_normal, fuzz_smoothing)));
+    layer.view = layered_view(s.view, layer.frame);
+  }
+  if (LAYERED_FUZZ) {
+    layer.depth = fuzz_density / layer.view.z;
+    layer.leaving = exp(-layer.depth);
+  }
+  return layer;
+}
+
+// A direction of the shading frame in the layer's, whose normal may be a smoother one.
+vec3 layered_into(Layer layer, mat3 frame, vec3 w) {
+  return LAYERED_FUZZ_SMOOTHING ? (frame * w) * layer.frame : w;
+}
+
 float layered_scattered_down(vec3 light) {
   if (LAYERED_FUZZ_SLIDES) return fuzz_scattered_down_fit(fuzz_down_low, fuzz_down_high, light.z, dot(light, fuzz_fibre));
-  return hemisphere_table(fuzz_scattering_table, layered_turned(light, fuzz_axis)).x;
+  return fibre_table(fuzz_down_table, fuzz_fibre, fuzz_table_along, light).x;
+}
+
+// What of the light reaches the base: P_p + c (1 - P_p) P_s.
+vec3 layered_entering(vec3 light, float passing) {
+  float down = fuzz_down_weight > 0.0 ? layered_scattered_down(light) : 0.0;
+  return passing + fuzz_colour * ((1.0 - passing) * down);
 }
 
 vec3 layered_simple_fuzz(vec3 light, vec3 view) {
   float x = fuzz_wrapped_cosine(light.z);
   if (x <= 0.0) return vec3(0.0);
   float phase = fuzz_phase(FUZZ_SGGX, SIMPLE_ALPHA, vec2(0.0), vec3(0.0, 0.0, 1.0), light, view);
-  return base_colour * (SIMPLE_COLOUR * phase * fuzz_layer(SIMPLE_DENSITY, x, view.z));
+  float scattered = 1.0 - exp(-SIMPLE_DENSITY * (x + view.z) / (x * view.z));
+  return base_colour * (SIMPLE_COLOUR * phase * scattered * x / (x + view.z));
 }
 
 // What a lamp of unit irradiance in direction `light` sends towards `view`.
-vec3 layered_direct(vec3 light, vec3 view) {
+vec3 layered_direct(mat3 frame, vec3 light, vec3 view, Layer layer) {
   vec3 base = vec3(0.0);
   if (light.z > 0.0) {
     float diffuse = base_fibres ? fibre_lobe(layered_turned(light, base_axis), base_lobe) : light.z * 0.3183098861837907;
@@ -99,21 +150,30 @@ vec3 layered_direct(vec3 light, vec3 view) {
     base += f * light.z;
   }
   if (!LAYERED_FUZZ) return base;
-  if (light.z <= 0.0) return vec3(0.0);
-  float passing = exp(-fuzz_density / light.z);
-  float down = fuzz_down_weight > 0.0 ? layered_scattered_down(light) : 0.0;
-  vec3 attenuation = (passing + fuzz_colour * ((1.0 - passing) * down)) * exp(-fuzz_density / view.z);
-  float phase = fuzz_phase(fuzz_phase_kind, fuzz_alpha, fuzz_schlick, fuzz_fibre, light, view);
-  return base * attenuation + fuzz_colour * (phase * fuzz_layer(fuzz_density, light.z, view.z));
+  vec3 u = layered_into(layer, frame, light);
+  if (u.z <= 0.0) return vec3(0.0);
+  float depth = fuzz_density / u.z;
+  float passing = exp(-depth);
+  // The exponent of the layer is that of both crossings: exp(-d (1/u.n + 1/v.n)) = P_p P_e.
+  float scattered = fuzz_scattered(depth + layer.depth, passing * layer.leaving);
+  float phase = fuzz_phase(LAYERED_FUZZ_PHASE, fuzz_alpha, fuzz_schlick, fuzz_fibre, u, layer.view);
+  return base * (layered_entering(u, passing) * layer.leaving) +
+         fuzz_colour * (phase * scattered * u.z / (u.z + layer.view.z));
+}
+
+// The light of the surroundings on a flat diffuse surface, per albedo.
+vec3 layered_received(vec3 normal) {
+  return environment_harmonics[0] * base_bands[0] + harmonics_linear(normal) * base_bands[1] +
+         harmonics_quadratic(normal) * base_bands[2];
 }
 
 vec3 layered_diffuse_surroundings(mat3 frame) {
-  if (!base_fibres) return base_colour * harmonics_lobe(frame[2], vec3(1.0, 0.6666666667, 0.25));
+  if (!base_fibres) return base_colour * layered_received(frame[2]);
   vec3 fibre = frame * vec3(base_axis, 0.0);
   vec3 across = frame * vec3(-base_axis.y, base_axis.x, 0.0);
-  return base_colour * (environment_harmonics[0] + harmonics_linear(frame[2]) * base_moment_z +
-                        harmonics_quadratic(fibre) * base_moments.x + harmonics_quadratic(across) * base_moments.y +
-                        harmonics_quadratic(frame[2]) * base_moments.z);
+  return base_colour * base_bands[0] *
+         (environment_harmonics[0] + harmonics_linear(frame[2]) * base_moment_z + harmonics_quadratic(fibre) * base_moments.x +
+          harmonics_quadratic(across) * base_moments.y + harmonics_quadratic(frame[2]) * base_moments.z);
 }
 
 vec3 layered_reflected_surroundings(mat3 frame, vec3 view) {
@@ -140,28 +200,30 @@ vec3 layered_reflected_surroundings(mat3 frame, vec3 view) {
   }
   vec2 albedo = hemisphere_table(ggx_albedo_table, v).xy;
   vec3 reflected = total > 0.0 ? sum / total * (ggx_f0 * albedo.x + albedo.y) : vec3(0.0);
+  reflected *= base_bands[0];  // what crosses the fuzz, for probes as for harmonics
   if (LAYERED_COMPENSATION) {
     vec3 lobe = ggx_multiple_scattering(ggx_f0, 0.0, albedo.x + albedo.y, ggx_mean_albedo);
     vec3 bounces = lobe * (3.141592653589793 * (1.0 - ggx_mean_albedo));
-    reflected += bounces * harmonics_lobe(frame[2], vec3(1.0, 0.6666666667, 0.25));
+    reflected += bounces * layered_received(frame[2]);
   }
   return reflected;
 }
 
-vec3 layered_fuzz_surroundings(mat3 frame, vec3 view) {
-  float visibility = fuzz_visibility_fit(fuzz_visibility, fuzz_density, view.z);
+vec3 layered_fuzz_surroundings(Layer layer) {
+  float visibility = fuzz_visibility_fit(fuzz_visibility, fuzz_density, layer.view.z);
   if (LAYERED_FUZZ_SLIDES) {
-    return fuzz_colour * harmonics_lobe(frame[2], vec3(1.0, 0.5, 0.0)) * (visibility * (1.0 - layered_scattered_down(view)));
+    return fuzz_colour * harmonics_lobe(layer.frame[2], vec3(1.0, 0.5, 0.0)) *
+           (visibility * (1.0 - layered_scattered_down(layer.view)));
   }
-  vec3 v = layered_turned(view, fuzz_axis);
-  vec3 gaze = hemisphere_table(fuzz_gaze_table, v).xyz;
+  vec3 v = layered_turned(layer.view, fuzz_axis);
+  vec4 ambient = fibre_table(fuzz_ambient_table, fuzz_fibre, fuzz_table_along, layer.view);
+  vec3 gaze = vec3(ambient.x, ambient.y * v.y, ambient.z);
   float size = max(length(gaze), 1e-6);
-  vec3 direction = frame * layered_back(gaze / size, fuzz_axis);
-  float response = hemisphere_table(fuzz_scattering_table, v).y * visibility;
-  return fuzz_colour * harmonics_lobe(direction, vec3(1.0, size, size * size * size)) * response;
+  vec3 direction = layer.frame * layered_back(gaze / size, fuzz_axis);
+  return fuzz_colour * harmonics_lobe(direction, vec3(1.0, size, size * size * size)) * (ambient.w * visibility);
 }
 
-vec3 layered_surroundings(mat3 frame, vec3 view) {
+vec3 layered_surroundings(mat3 frame, vec3 view, Layer layer) {
   vec3 base = layered_diffuse_surroundings(frame);
   if (LAYERED_SIMPLE_FUZZ) {
     float response = fuzz_visibility_fit(fuzz_visibility, SIMPLE_DENSITY, view.z) * 0.5;
@@ -170,20 +232,18 @@ vec3 layered_surroundings(mat3 frame, vec3 view) {
   }
   if (LAYERED_REFLECTION && ggx_lobe_samples > 0) base += layered_reflected_surroundings(frame, view);
   if (!LAYERED_FUZZ) return base;
-  vec3 attenuation = fuzz_passing_albedo + fuzz_colour * (fuzz_down_weight * fuzz_down_albedo * (1.0 - fuzz_passing_albedo));
-  return base * attenuation * exp(-fuzz_density / view.z) + layered_fuzz_surroundings(frame, view);
+  return base * layer.leaving + layered_fuzz_surroundings(layer);
 }
 
 vec3 layered(Surface s) {
   mat3 frame = mat3(s.tangent, s.bitangent_sign * cross(s.normal, s.tangent), s.normal);
-  vec3 view = s.view * frame;
-  // Interpolated normals turn away from the eye at the rim.
-  if (view.z < LAYERED_LOWEST_VIEW) view = normalize(vec3(view.xy, LAYERED_LOWEST_VIEW));
-  vec3 sum = s.occlusion * layered_surroundings(frame, view);
+  vec3 view = layered_view(s.view, frame);
+  Layer layer = layered_layer(s, frame, view);
+  vec3 sum = s.occlusion * layered_surroundings(frame, view, layer);
   for (int i = 0; i < light_count; ++i) {
     vec3 direction;
     vec3 irradiance = arriving_light(i, s.position, direction);
-    sum += irradiance * layered_direct(direction * frame, view);
+    sum += irradiance * layered_direct(frame, direction * frame, view, layer);
   }
   return max(sum, 0.0);
 }

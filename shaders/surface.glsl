@@ -5,6 +5,7 @@
 struct Surface {
   vec3 position;         // view space; the eye is at the origin under perspective
   vec3 normal;           // view space, unit
+  vec3 mesh_normal;      // the same before any normal map
   vec3 tangent;          // view space, unit, orthogonal to the normal
   float bitangent_sign;  // bitangent = bitangent_sign * cross(normal, tangent)
   vec3 view;             // view space, unit, from the point towards the eye

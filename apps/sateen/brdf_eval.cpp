@@ -2,8 +2,7 @@
 #include <filesystem>
 #include <memory>
 
-#include <fmt/format.h>
-
+#include "brdf_options.h"
 #include "command.h"
 #include "commands.h"
 #include "sateen/brdf/evaluation.h"
@@ -13,8 +12,7 @@ namespace sateen::cli {
 
 void add_brdf_eval(CLI::App& parent) {
   struct Options {
-    std::string model;
-    std::filesystem::path parameters;
+    BrdfArguments brdf;
     std::filesystem::path directions;
     std::filesystem::path output;
   };
@@ -23,14 +21,7 @@ void add_brdf_eval(CLI::App& parent) {
       "sateen brdf eval ggx --params examples/brdf/ggx.json --directions examples/brdf/directions.json -o "
       "values.json");
   auto options = std::make_shared<Options>();
-  const auto models = brdf_models();
-  command->add_option("model", options->model, "fibre-diffuse, ggx or fuzz")
-      ->required()
-      ->check(CLI::IsMember(std::vector<std::string>(models.begin(), models.end())));
-  command
-      ->add_option("--params", options->parameters,
-                   "JSON object with the model's parameters (angles in degrees)")
-      ->required();
+  add_brdf_options(*command, options->brdf);
   command
       ->add_option(
           "--directions", options->directions,
@@ -40,7 +31,7 @@ void add_brdf_eval(CLI::App& parent) {
   command->add_option("-o,--output", options->output, "JSON list of [r, g, b]: the BRDF without the cosine")
       ->required();
   command->callback([options] {
-    const BrdfFunction brdf = read_brdf(options->model, options->parameters);
+    const BrdfFunction brdf = read_brdf(options->brdf.model, options->brdf.parameters);
     const std::vector<DirectionPair> pairs = read_direction_pairs(options->directions);
     std::vector<Vec3> values(pairs.size());
     const Progress progress = progress_bar("Evaluating");

@@ -2,6 +2,7 @@
 #include <filesystem>
 #include <memory>
 
+#include "brdf_options.h"
 #include "command.h"
 #include "commands.h"
 #include "sateen/brdf/plot.h"
@@ -11,8 +12,7 @@ namespace sateen::cli {
 
 void add_brdf_plot(CLI::App& parent) {
   struct Options {
-    std::string model;
-    std::filesystem::path parameters;
+    BrdfArguments brdf;
     std::filesystem::path output;
     std::vector<double> lights = {0, 30, 60};
     bool cosine = false;
@@ -21,14 +21,7 @@ void add_brdf_plot(CLI::App& parent) {
       add_command(parent, "plot", "Draw a reflectance model's lobes and albedo as SVG",
                   "sateen brdf plot ggx --params examples/brdf/ggx.json -o ggx.svg --lights 0,45,75");
   auto options = std::make_shared<Options>();
-  const auto models = brdf_models();
-  command->add_option("model", options->model, "fibre-diffuse, ggx or fuzz")
-      ->required()
-      ->check(CLI::IsMember(std::vector<std::string>(models.begin(), models.end())));
-  command
-      ->add_option("--params", options->parameters,
-                   "JSON object with the model's parameters, as for brdf eval")
-      ->required();
+  add_brdf_options(*command, options->brdf);
   command->add_option("--lights", options->lights, "Angles of the lights from the normal, degrees, up to 6")
       ->delimiter(',')
       ->expected(1, 6)
@@ -40,12 +33,13 @@ void add_brdf_plot(CLI::App& parent) {
       throw CLI::ValidationError("--output", "the drawing is SVG; give a name that ends in .svg");
     }
     PlotSettings settings;
-    settings.title = options->model + ", " + options->parameters.filename().string();
+    settings.title = options->brdf.model + ", " + options->brdf.parameters.filename().string();
     settings.light_angles.clear();
     for (const double angle : options->lights) settings.light_angles.push_back(radians(angle));
     settings.with_cosine = options->cosine;
-    settings.view_independent = options->model == "fibre-diffuse";
-    write_text(options->output, brdf_plot(read_brdf(options->model, options->parameters), settings));
+    settings.view_independent = options->brdf.model == "fibre-diffuse";
+    write_text(options->output,
+               brdf_plot(read_brdf(options->brdf.model, options->brdf.parameters), settings));
   });
 }
 

@@ -21,6 +21,7 @@ struct Arguments {
   fs::path occlusion;
   fs::path uvs;
   fs::path curvature;
+  fs::path mesh_normals;
   fs::path material;
   fs::path environment;
   fs::path output;
@@ -36,7 +37,8 @@ void run(const Arguments& arguments) {
                            .positions = read(arguments.positions),
                            .occlusion = read(arguments.occlusion),
                            .uvs = read(arguments.uvs),
-                           .curvature = read(arguments.curvature)};
+                           .curvature = read(arguments.curvature),
+                           .mesh_normals = read(arguments.mesh_normals)};
   write_image(arguments.output, shade(*appearance, inputs, progress_bar("Shading")));
 }
 
@@ -62,6 +64,8 @@ void add_shade(CLI::App& parent) {
   command->add_option("--uv", arguments->uvs, "Texture coordinates, v up, for materials with textures");
   command->add_option("--curvature", arguments->curvature,
                       "Curvature in the first channel, positive where convex");
+  command->add_option("--mesh-normals", arguments->mesh_normals,
+                      "Normals before any normal map, for materials that smooth theirs");
   command->add_option("--material,-m", arguments->material, "AMC, MatCap picture or .json material")
       ->required();
   command->add_option("--env", arguments->environment,

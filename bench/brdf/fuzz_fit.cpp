@@ -15,7 +15,7 @@ namespace {
 
 using namespace sateen;
 
-/// Residuals of the 33 x 33 table, and of the slides' ambient product, at directions between its nodes.
+/// Residuals of the table, and of the slides' ambient product, at directions between its nodes.
 struct TableErrors {
   FitError scattered_down;
   double response_table = 0;   ///< largest ratio to the integral, either way
@@ -33,13 +33,13 @@ TableErrors table_errors(const FuzzParameters& fuzz) {
       const double phi = kPi * (j + 0.37) / 11;
       const Vec3 w(r * std::cos(phi), r * std::sin(phi), z);
       const double exact = fuzz_scattered_down(fuzz, w, 1e-5);
-      const Vec4 read = table.scattering(w);
-      errors.scattered_down.rmse += (read.x() - exact) * (read.x() - exact);
-      errors.scattered_down.largest = std::max(errors.scattered_down.largest, std::abs(read.x() - exact));
+      const double difference = table.scattered_down(w).x() - exact;
+      errors.scattered_down.rmse += difference * difference;
+      errors.scattered_down.largest = std::max(errors.scattered_down.largest, std::abs(difference));
       const double response = fuzz_uniform_response(fuzz, w, 1e-6);
       const auto ratio = [&](double value) { return std::max(value / response, response / value); };
       const double visibility = fuzz_visibility_slides(fuzz.density, z);
-      errors.response_table = std::max(errors.response_table, ratio(read.y() * visibility));
+      errors.response_table = std::max(errors.response_table, ratio(table.response(w) * visibility));
       errors.response_slides = std::max(errors.response_slides, ratio((1 - exact) * visibility));
     }
   }
@@ -79,7 +79,7 @@ int main() {
   }
 
   fmt::print(
-      "\n33 x 33 table, worst over the same tilts (density 0.2): P_s rmse / largest; largest ratio to the "
+      "\nTable, worst over the same tilts (density 0.2): P_s rmse / largest; largest ratio to the "
       "uniform-light "
       "response: table, slides' product\n");
   for (const double alpha : {0.1, 0.2, 0.35, 0.5, 0.7, 0.95}) {

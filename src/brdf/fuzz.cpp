@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sateen/core/direction.h"
+
 namespace sateen {
 
 namespace {
@@ -17,7 +19,8 @@ double schlick_lobe(double k, double sine) {
 }  // namespace
 
 Vec3 FuzzParameters::fibre() const {
-  return {std::sin(tilt) * std::cos(azimuth), std::sin(tilt) * std::sin(azimuth), std::cos(tilt)};
+  const Vec3 end(std::sin(tilt) * std::cos(azimuth), std::sin(tilt) * std::sin(azimuth), std::cos(tilt));
+  return end.z() >= 0 ? end : Vec3(-end);
 }
 
 double fuzz_k_of_alpha(double alpha) {
@@ -100,6 +103,23 @@ double fuzz_phase(const FuzzParameters& fuzz, const Vec3& light, const Vec3& vie
   const double area = std::max(fuzz_projected_area(fuzz.alpha, light.dot(fibre)),
                                fuzz_projected_area(fuzz.alpha, view.dot(fibre)));
   return fuzz_fibre_distribution(fuzz.alpha, cosine) / (4 * area);
+}
+
+Vec3 fuzz_sample_view(const FuzzParameters& fuzz, const Vec3& light, const Vec2& sample) {
+  // The flakes are an ellipsoid with half axes alpha across the fibre and 1 along it, seen from the light:
+  // points even over its outline are points even over a disc where the ellipsoid is a sphere.
+  const Vec3 fibre = fuzz.fibre();
+  Vec3 first;
+  Vec3 second;
+  const double along = light.dot(fibre);
+  const Vec3 towards = (light + (fuzz.alpha - 1) * along * fibre).normalized();
+  frame_around(towards, first, second);
+  const double radius = std::sqrt(sample.x());
+  const double angle = 2 * kPi * sample.y();
+  const Vec3 point = radius * (std::cos(angle) * first + std::sin(angle) * second) +
+                     std::sqrt(std::max(0.0, 1 - sample.x())) * towards;
+  const Vec3 normal = (point + (fuzz.alpha - 1) * point.dot(fibre) * fibre).normalized();
+  return (2 * light.dot(normal) * normal - light).normalized();
 }
 
 Vec3 fuzz_brdf(const FuzzParameters& fuzz, const Vec3& light, const Vec3& view) {

@@ -28,7 +28,7 @@ struct FuzzParameters {
   double azimuth = 0;    ///< of the fibre's projection, radians counter-clockwise from the tangent
   Vec3 colour{1, 1, 1};  ///< c_f, single-scattering albedo of a fibre, [0, 1]
 
-  Vec3 fibre() const;  ///< unit, in the shading frame
+  Vec3 fibre() const;  ///< unit, in the shading frame: the end that points out of the surface
 };
 
 /// alpha and k of equal spread: k = 1 - alpha^2. (The slides print k = -0.1 for alpha = 0.95; with their
@@ -52,6 +52,11 @@ double fuzz_schlick_normalisation(double k);
 
 /// The phase function p(u, v), 1/sr, over the whole sphere of directions.
 double fuzz_phase(const FuzzParameters& fuzz, const Vec3& light, const Vec3& view);
+
+/// A view drawn for a light with the density p(u, v) of FuzzPhase::sggx, over the whole sphere: the light
+/// reflected by a normal of the flakes visible from it (Heitz et al. 2015, section 3.3). `sample` is uniform
+/// in [0, 1)^2. The other phase functions may be weighted by their ratio to that one.
+Vec3 fuzz_sample_view(const FuzzParameters& fuzz, const Vec3& light, const Vec2& sample);
 
 /// f(u, v) = c p(u, v) (1 - exp(-d (u+v).n / ((u.n)(v.n)))) / ((u+v).n), without the cosine, 1/sr; 0 when a
 /// direction is at or below the horizon. (The slides print (u.v)(v.n) under the exponent; Monte Carlo through

@@ -75,11 +75,36 @@ LayeredAppearance::LayeredAppearance(LayeredMaterial material, Lighting lighting
     if (material_.specular->energy_compensation) mean_albedo_ = ggx_mean_albedo(along);
   }
   if (material_.fuzz) {
-    fuzz_table_ = make_fuzz_table(*material_.fuzz, kTableSize);
+    fuzz_table_ = make_fuzz_table(*material_.fuzz);
     if (material_.fuzz_slides) {
       fuzz_polynomial_ = fit_scattered_down(*material_.fuzz, ScatteredDownPolynomial::kSlidesDegree);
     }
   }
+  base_bands_ = base_bands();
+}
+
+std::array<Vec3, 3> LayeredAppearance::base_bands() const {
+  std::array<Vec3, 3> bands;
+  for (std::size_t l = 0; l < 3; ++l) bands[l].setConstant(FuzzTable().passing_bands[l]);
+  if (!material_.fuzz) return bands;
+  const Vec3 colour = material_.fuzz_scattered_down ? material_.fuzz->colour : Vec3::Zero();
+  if (material_.fuzz_slides) {
+    const double q = fuzz_passing_albedo_slides(material_.fuzz->density);
+    const Vec3 attenuation = Vec3::Constant(q) + colour * (fuzz_table_.scattered_down_mean * (1 - q));
+    for (Vec3& band : bands) band = band.cwiseProduct(attenuation);
+    return bands;
+  }
+  for (std::size_t l = 0; l < 3; ++l) {
+    bands[l] = Vec3::Constant(fuzz_table_.passing_bands[l]) + colour * fuzz_table_.scattered_bands[l];
+  }
+  return bands;
+}
+
+LayeredAppearance::Seen LayeredAppearance::seen(const Surface& surface, const Vec3& normal) {
+  const Vec3 across = surface.tangent - normal * normal.dot(surface.tangent);
+  const Vec3 tangent = across / std::sqrt(std::max(across.squaredNorm(), 1e-12));
+  const Frame frame{tangent, surface.bitangent_sign * normal.cross(tangent), normal};
+  return {frame, lifted_view(frame.into(surface.view))};
 }
 
 int LayeredAppearance::lobe_samples() const {
@@ -89,7 +114,7 @@ int LayeredAppearance::lobe_samples() const {
 
 double LayeredAppearance::scattered_down(const Vec3& light) const {
   if (material_.fuzz_slides) return fuzz_polynomial_(light, *material_.fuzz);
-  return fuzz_table_.scattering(turned(light, material_.fuzz->azimuth)).x();
+  return fuzz_table_.scattered_down(turned(light, material_.fuzz->azimuth)).x();
 }
 
 Vec3 LayeredAppearance::simple_fuzz(const Vec3& light, const Vec3& view) const {
@@ -103,7 +128,10 @@ Vec3 LayeredAppearance::simple_fuzz(const Vec3& light, const Vec3& view) const {
   return material_.base_colour * (kSimpleColour * fuzz_phase(fuzz, light, view) * scattered / sum * x);
 }
 
-Vec3 LayeredAppearance::direct(const Vec3& light, const Vec3& view) const {
+/// For a lamp of unit irradiance in direction `towards`, in view space.
+Vec3 LayeredAppearance::direct(const Vec3& towards, const Seen& seen, const Seen& layer) const {
+  const Vec3 light = seen.frame.into(towards);
+  const Vec3& view = seen.view;
   Vec3 diffuse = Vec3::Zero();
   if (light.z() > 0) {
     diffuse = material_.base_colour * base_value(material_, light);
@@ -126,17 +154,25 @@ Vec3 LayeredAppearance::direct(const Vec3& light, const Vec3& view) const {
     base += f * light.z();
   }
   if (!material_.fuzz) return base;
-  if (light.z() <= 0) return Vec3::Zero();
+  const Vec3 crossing = layer.frame.into(towards);
+  if (crossing.z() <= 0) return Vec3::Zero();
   const FuzzParameters& fuzz = *material_.fuzz;
-  const double down = material_.fuzz_scattered_down ? scattered_down(light) : 0;
-  return base.cwiseProduct(fuzz_attenuation(fuzz, light, view, down)) +
-         fuzz_brdf(fuzz, light, view) * light.z();
+  const double down = material_.fuzz_scattered_down ? scattered_down(crossing) : 0;
+  return base.cwiseProduct(fuzz_attenuation(fuzz, crossing, layer.view, down)) +
+         fuzz_brdf(fuzz, crossing, layer.view) * crossing.z();
+}
+
+/// The light of the surroundings on a flat diffuse surface, per albedo.
+Vec3 LayeredAppearance::received(const Vec3& normal) const {
+  const SphericalHarmonics9& light = lighting_.harmonics;
+  return light.c[0].cwiseProduct(base_bands_[0]) + light.linear(normal).cwiseProduct(base_bands_[1]) +
+         light.quadratic(normal).cwiseProduct(base_bands_[2]);
 }
 
 Vec3 LayeredAppearance::diffuse_surroundings(const Frame& frame) const {
   const SphericalHarmonics9& light = lighting_.harmonics;
   if (material_.base == LayeredMaterial::Base::lambert) {
-    return material_.base_colour.cwiseProduct(light.lobe(frame.normal, {1, 2.0 / 3, 0.25}));
+    return material_.base_colour.cwiseProduct(received(frame.normal));
   }
   const Vec3 axis(std::cos(material_.base_azimuth), std::sin(material_.base_azimuth), 0);
   const Vec3 fibre = frame.out_of(axis);
@@ -144,10 +180,12 @@ Vec3 LayeredAppearance::diffuse_surroundings(const Frame& frame) const {
   const FibreMoments& m = moments(material_.base);
   const Vec3 sum = light.c[0] * m.one + light.linear(frame.normal) * m.z + light.quadratic(fibre) * m.xx +
                    light.quadratic(across) * m.yy + light.quadratic(frame.normal) * m.zz;
-  return material_.base_colour.cwiseProduct(sum / m.one);
+  return material_.base_colour.cwiseProduct(sum / m.one).cwiseProduct(base_bands_[0]);
 }
 
-Vec3 LayeredAppearance::reflected_surroundings(const Frame& frame, const Vec3& view) const {
+Vec3 LayeredAppearance::reflected_surroundings(const Seen& base) const {
+  const Frame& frame = base.frame;
+  const Vec3& view = base.view;
   const GgxParameters& ggx = *material_.specular;
   const AnisotropicRoughness& roughness = ggx.roughness;
   const bool along = roughness.alpha_t >= roughness.alpha_b;
@@ -177,60 +215,62 @@ Vec3 LayeredAppearance::reflected_surroundings(const Frame& frame, const Vec3& v
   const Vec4 albedo = albedo_(turned(view, roughness.azimuth));
   Vec3 reflected = Vec3::Zero();
   if (total > 0) reflected = (sum / total).cwiseProduct(ggx.f0 * albedo.x() + Vec3::Constant(albedo.y()));
+  // What crosses the fuzz, for probes as for harmonics.
+  reflected = reflected.cwiseProduct(base_bands_[0]);
   if (ggx.energy_compensation) {
     // The compensating lobe is diffuse: integrated over lights it is (1 - E(v)) times the bounces.
     const Vec3 lobe = ggx_multiple_scattering(ggx.f0, 0, albedo.x() + albedo.y(), mean_albedo_);
     const Vec3 bounces = lobe * (kPi * (1 - mean_albedo_));
-    reflected += bounces.cwiseProduct(lighting_.harmonics.lobe(frame.normal, {1, 2.0 / 3, 0.25}));
+    reflected += bounces.cwiseProduct(received(frame.normal));
   }
   return reflected;
 }
 
-Vec3 LayeredAppearance::fuzz_surroundings(const Frame& frame, const Vec3& view) const {
+Vec3 LayeredAppearance::fuzz_surroundings(const Seen& layer) const {
   const FuzzParameters& fuzz = *material_.fuzz;
-  const double visibility = fuzz_visibility_slides(fuzz.density, view.z());
+  const double visibility = fuzz_visibility_slides(fuzz.density, layer.view.z());
   if (material_.fuzz_slides) {
-    return fuzz.colour.cwiseProduct(lighting_.harmonics.hemisphere_mean(frame.normal)) *
-           (visibility * (1 - scattered_down(view)));
+    return fuzz.colour.cwiseProduct(lighting_.harmonics.hemisphere_mean(layer.frame.normal)) *
+           (visibility * (1 - scattered_down(layer.view)));
   }
-  const Vec3 local = turned(view, fuzz.azimuth);
-  const Vec3 gaze = fuzz_table_.gaze(local).head<3>();
+  const Vec3 local = turned(layer.view, fuzz.azimuth);
+  const Vec3 gaze = fuzz_table_.mean_direction(local);
   // The lobe p g about its mean direction, as narrow as the mean is long: a lobe whose Legendre coefficients
   // fall like those of a Gaussian on the sphere, 1, g, g^3.
   const double length = std::max(gaze.norm(), 1e-6);
-  const Vec3 direction = frame.out_of(turned(gaze / length, -fuzz.azimuth));
-  const double response = fuzz_table_.scattering(local).y() * visibility;
+  const Vec3 direction = layer.frame.out_of(turned(gaze / length, -fuzz.azimuth));
+  const double response = fuzz_table_.response(local) * visibility;
   return fuzz.colour.cwiseProduct(lighting_.harmonics.lobe(direction, {1, length, length * length * length}) *
                                   response);
 }
 
-Vec3 LayeredAppearance::surroundings(const Frame& frame, const Vec3& view) const {
-  Vec3 base = diffuse_surroundings(frame);
+Vec3 LayeredAppearance::surroundings(const Seen& seen, const Seen& layer) const {
+  Vec3 base = diffuse_surroundings(seen.frame);
   if (material_.simple_fuzziness > 0) {
     // The slides' ambient product for the fixed parameters; even scattering sends half down.
-    const double response = fuzz_visibility_slides(kSimpleDensity, view.z()) * 0.5;
-    const Vec3 fuzz = material_.base_colour.cwiseProduct(lighting_.harmonics.hemisphere_mean(frame.normal)) *
-                      (kSimpleColour * response);
+    const double response = fuzz_visibility_slides(kSimpleDensity, seen.view.z()) * 0.5;
+    const Vec3 fuzz =
+        material_.base_colour.cwiseProduct(lighting_.harmonics.hemisphere_mean(seen.frame.normal)) *
+        (kSimpleColour * response);
     base = (1 - material_.simple_fuzziness) * base + material_.simple_fuzziness * fuzz;
   }
-  if (material_.specular && lighting_.environment) base += reflected_surroundings(frame, view);
+  if (material_.specular && lighting_.environment) base += reflected_surroundings(seen);
   if (!material_.fuzz) return base;
-  const FuzzParameters& fuzz = *material_.fuzz;
-  const double q = material_.fuzz_slides ? fuzz_passing_albedo_slides(fuzz.density) : fuzz_table_.passing;
-  const double r = material_.fuzz_scattered_down ? fuzz_table_.scattered_down : 0;
-  const Vec3 attenuation =
-      (Vec3::Constant(q) + fuzz.colour * (r * (1 - q))) * fuzz_passing(fuzz.density, view);
-  return base.cwiseProduct(attenuation) + fuzz_surroundings(frame, view);
+  return base * fuzz_passing(material_.fuzz->density, layer.view) + fuzz_surroundings(layer);
 }
 
 Vec3 LayeredAppearance::evaluate(const Surface& surface) const {
-  const Frame frame{surface.tangent, surface.bitangent_sign * surface.normal.cross(surface.tangent),
-                    surface.normal};
-  const Vec3 view = lifted_view(frame.into(surface.view));
-  Vec3 sum = surface.occlusion * surroundings(frame, view);
+  const Seen base = seen(surface, surface.normal);
+  Seen layer = base;
+  if (material_.fuzz_smoothing > 0) {
+    const Vec3 blend =
+        (1 - material_.fuzz_smoothing) * surface.normal + material_.fuzz_smoothing * surface.mesh_normal;
+    if (blend.norm() > 1e-6) layer = seen(surface, blend.normalized());
+  }
+  Vec3 sum = surface.occlusion * surroundings(base, layer);
   for (const PunctualLight& light : lighting_.lights) {
     const ArrivingLight arriving = arriving_light(light, surface.position);
-    sum += arriving.irradiance.cwiseProduct(direct(frame.into(arriving.direction), view));
+    sum += arriving.irradiance.cwiseProduct(direct(arriving.direction, base, layer));
   }
   return sum.cwiseMax(0);
 }
@@ -256,7 +296,16 @@ ShaderBinding LayeredAppearance::shader() const {
     binding.files.emplace_back("layered_no_compensation.glsl");
   }
   if (!material_.fuzz) binding.files.emplace_back("layered_no_fuzz.glsl");
-  if (material_.fuzz_slides) binding.files.emplace_back("layered_slides.glsl");
+  if (material_.fuzz) {
+    if (material_.fuzz->phase == FuzzPhase::schlick) {
+      binding.files.emplace_back("layered_phase_schlick.glsl");
+    }
+    if (material_.fuzz->phase == FuzzPhase::sggx_symmetric) {
+      binding.files.emplace_back("layered_phase_symmetric.glsl");
+    }
+    if (material_.fuzz_smoothing > 0) binding.files.emplace_back("layered_smoothing.glsl");
+    if (material_.fuzz_slides) binding.files.emplace_back("layered_slides.glsl");
+  }
   if (material_.simple_fuzziness == 0) binding.files.emplace_back("layered_no_simple_fuzz.glsl");
   binding.files.emplace_back("layered.glsl");
   binding.function = "layered";
@@ -299,6 +348,8 @@ ShaderBinding LayeredAppearance::shader() const {
   }
 
   set("base_colour", narrow(material_.base_colour));
+  set("base_bands",
+      std::vector<Vec3f>{narrow(base_bands_[0]), narrow(base_bands_[1]), narrow(base_bands_[2])});
   const FibreMoments& m = moments(material_.base);
   const bool maximum = material_.base == LayeredMaterial::Base::maximum_normal;
   set("base_fibres", material_.base != LayeredMaterial::Base::lambert ? 1 : 0);
@@ -327,7 +378,6 @@ ShaderBinding LayeredAppearance::shader() const {
     const FuzzParameters& fuzz = *material_.fuzz;
     number("fuzz_density", fuzz.density);
     number("fuzz_alpha", fuzz.alpha);
-    set("fuzz_phase_kind", static_cast<int>(fuzz.phase));
     // Schlick: k, and everything of the lobe that does not depend on directions.
     set("fuzz_schlick",
         Vec2f(static_cast<float>(fuzz.k),
@@ -335,17 +385,16 @@ ShaderBinding LayeredAppearance::shader() const {
     set("fuzz_fibre", narrow(fuzz.fibre()));
     axis("fuzz_axis", fuzz.azimuth);
     set("fuzz_colour", narrow(fuzz.colour));
-    number("fuzz_passing_albedo",
-           material_.fuzz_slides ? fuzz_passing_albedo_slides(fuzz.density) : fuzz_table_.passing);
-    number("fuzz_down_albedo", fuzz_table_.scattered_down);
+    number("fuzz_smoothing", material_.fuzz_smoothing);
     number("fuzz_down_weight", material_.fuzz_scattered_down ? 1 : 0);
     if (material_.fuzz_slides) {
       const std::vector<double>& c = fuzz_polynomial_.coefficients;
       set("fuzz_down_low", narrow({c[0], c[1], c[2]}));
       set("fuzz_down_high", narrow({c[3], c[4], c[5]}));
     }
-    binding.textures.push_back({"fuzz_scattering_table", fuzz_table_.scattering.texture()});
-    binding.textures.push_back({"fuzz_gaze_table", fuzz_table_.gaze.texture()});
+    set("fuzz_table_along", Vec2f(fuzz_table_.ambient.along_coordinate().cast<float>()));
+    binding.textures.push_back({"fuzz_down_table", fuzz_table_.scattered_down.texture(true)});
+    binding.textures.push_back({"fuzz_ambient_table", fuzz_table_.ambient.texture()});
   }
   return binding;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -10,6 +11,7 @@
 #include "sateen/brdf/fuzz_approximations.h"
 #include "sateen/brdf/fuzz_table.h"
 #include "sateen/brdf/ggx.h"
+#include "sateen/brdf/hemisphere_table.h"
 #include "sateen/core/appearance.h"
 #include "sateen/light/prefiltered.h"
 #include "sateen/light/punctual.h"
@@ -36,6 +38,9 @@ struct LayeredMaterial {
   std::optional<FuzzParameters> fuzz;
   bool fuzz_slides = false;         ///< the slides' polynomials in place of the table (fuzz_approximations.h)
   bool fuzz_scattered_down = true;  ///< off: P_s = 0 under the base layer, the slides' comparison
+  /// Turns the fuzz's normal from the shading normal (0) to the mesh's without normal map (1): softer fuzz
+  /// over a detailed base. The slides' "normal smoothing".
+  double fuzz_smoothing = 0;
 
   /// Weight of the slides' simplified deferred fuzz, [0, 1]: in place of the base's diffuse light, fixed
   /// parameters, wrapped lighting. Not together with `fuzz`.
@@ -80,14 +85,23 @@ class LayeredAppearance : public Appearance {
     Vec3 into(const Vec3& w) const { return {w.dot(tangent), w.dot(bitangent), w.dot(normal)}; }
     Vec3 out_of(const Vec3& w) const { return w.x() * tangent + w.y() * bitangent + w.z() * normal; }
   };
+  /// A shading frame and the view in it, never below the horizon. The fuzz has one of its own, whose normal
+  /// may be smoother.
+  struct Seen {
+    Frame frame;
+    Vec3 view;
+  };
 
+  static Seen seen(const Surface& surface, const Vec3& normal);
   double scattered_down(const Vec3& light) const;
-  Vec3 direct(const Vec3& light, const Vec3& view) const;
+  Vec3 direct(const Vec3& light, const Seen& base, const Seen& layer) const;
   Vec3 simple_fuzz(const Vec3& light, const Vec3& view) const;
+  Vec3 received(const Vec3& normal) const;
   Vec3 diffuse_surroundings(const Frame& frame) const;
-  Vec3 reflected_surroundings(const Frame& frame, const Vec3& view) const;
-  Vec3 fuzz_surroundings(const Frame& frame, const Vec3& view) const;
-  Vec3 surroundings(const Frame& frame, const Vec3& view) const;
+  Vec3 reflected_surroundings(const Seen& base) const;
+  Vec3 fuzz_surroundings(const Seen& layer) const;
+  Vec3 surroundings(const Seen& base, const Seen& layer) const;
+  std::array<Vec3, 3> base_bands() const;
   int lobe_samples() const;
 
   LayeredMaterial material_;
@@ -97,6 +111,8 @@ class LayeredAppearance : public Appearance {
   bool keep_lights_ = true;  ///< off for the stand-in lamp, which goes when an environment is set
   FuzzTable fuzz_table_;
   ScatteredDownPolynomial fuzz_polynomial_;
+  /// Legendre coefficients of the light of the surroundings that a diffuse base receives, per channel.
+  std::array<Vec3, 3> base_bands_;
 };
 
 }  // namespace sateen

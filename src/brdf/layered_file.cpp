@@ -104,6 +104,7 @@ std::unique_ptr<Appearance> LayeredAppearance::read(const std::filesystem::path&
     material.fuzz = read_fuzz(fuzz);
     material.fuzz_slides = fuzz.choice("approximation", "table", approximations) == "slides";
     material.fuzz_scattered_down = fuzz.flag("scattered_down", true);
+    material.fuzz_smoothing = fuzz.number("normal_smoothing", 0, {0, 1});
     fuzz.finish();
   }
   material.simple_fuzziness = json.number("simple_fuzziness", 0, {0, 1});

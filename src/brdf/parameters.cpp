@@ -65,7 +65,18 @@ GgxParameters read_ggx(JsonObject& json) {
 
 FuzzParameters read_fuzz(JsonObject& json) {
   static const std::array<std::string, 3> phases = {"sggx", "sggx-symmetric", "schlick"};
+  static const std::array<std::string, 1> conventions = {"gltf"};
   FuzzParameters fuzz;
+  if (json.has("convention")) {
+    json.choice("convention", "gltf", conventions);
+    for (const char* key : {"density", "alpha", "k", "phase", "tilt", "azimuth", "color"}) {
+      if (json.has(key)) json.fail(key, "left out where \"convention\" is given");
+    }
+    SheenParameters sheen;
+    sheen.colour = json.colour("sheen_color", sheen.colour);
+    sheen.roughness = json.number("sheen_roughness", sheen.roughness, {0, 1});
+    return from_sheen(sheen);
+  }
   fuzz.density = json.number("density", fuzz.density, {0, 100});
   const std::string phase = json.choice("phase", "sggx", phases);
   fuzz.phase = phase == "schlick"          ? FuzzPhase::schlick

@@ -14,7 +14,8 @@ namespace sateen {
 /// blender, filament; conventions.h) with roughness, anisotropy, rotation; f0; energy_compensation.
 GgxParameters read_ggx(JsonObject& json);
 
-/// Keys density, alpha or k, phase, tilt, azimuth, color.
+/// Keys density, alpha or k, phase, tilt, azimuth, color; in their place convention (gltf:
+/// KHR_materials_sheen) with sheen_color and sheen_roughness.
 FuzzParameters read_fuzz(JsonObject& json);
 
 }  // namespace sateen

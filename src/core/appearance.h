@@ -17,6 +17,7 @@ namespace sateen {
 struct Surface {
   Vec3 position{0, 0, 0};     ///< view space; the eye is at the origin under perspective
   Vec3 normal{0, 0, 1};       ///< view space, unit
+  Vec3 mesh_normal{0, 0, 1};  ///< the same before any normal map
   Vec3 tangent{1, 0, 0};      ///< view space, unit, orthogonal to the normal
   double bitangent_sign = 1;  ///< bitangent = bitangent_sign * cross(normal, tangent)
   Vec3 view{0, 0, 1};         ///< view space, unit, from the point towards the eye

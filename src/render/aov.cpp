@@ -23,14 +23,15 @@ Image channels(const Image& image, int first, int count) {
 }  // namespace
 
 std::span<const std::string> aov_names() {
-  static const std::array<std::string, 7> names{"normal", "tangent",   "k",       "mask",
-                                                "uv",     "occlusion", "position"};
+  static const std::array<std::string, 8> names{"normal", "tangent",   "k",        "mask",
+                                                "uv",     "occlusion", "position", "mesh_normal"};
   return names;
 }
 
 Image aov(const Frame& frame, const std::string& name) {
   const SurfaceImages& surfaces = *frame.surfaces;
   if (name == "normal") return channels(surfaces.normal, 0, 3);
+  if (name == "mesh_normal") return channels(surfaces.mesh_normal, 0, 3);
   if (name == "tangent") return channels(surfaces.tangent, 0, 3);
   if (name == "position") return channels(surfaces.position, 0, 3);
   if (name == "k") return channels(surfaces.eye_normal, 3, 1);

@@ -8,9 +8,9 @@
 
 namespace sateen {
 
-/// Arbitrary output variables by name: "normal", "tangent", "position" (x, y, z in view space, as stored),
-/// "k" (tangent angle in turns), "mask" (1 where something was drawn at the pixel's centre), "uv" (v up),
-/// "occlusion".
+/// Arbitrary output variables by name: "normal", "mesh_normal" (before any normal map), "tangent", "position"
+/// (x, y, z in view space, as stored), "k" (tangent angle in turns), "mask" (1 where something was drawn at
+/// the pixel's centre), "uv" (v up), "occlusion".
 std::span<const std::string> aov_names();
 
 /// One of them, taken at pixel centres, row 0 on top, 0 where nothing was drawn. Throws Error for an unknown

@@ -145,14 +145,14 @@ struct Renderer::Data {
   void surface_tile(const View& view, const Mat4& clip_from_view, const Rectangle& tile,
                     SurfaceImages& images) {
     if (surface_pipelines.empty()) surface_pipelines = compile(true);
-    const gpu::Framebuffer target(tile.width, tile.height, 6);
+    const gpu::Framebuffer target(tile.width, tile.height, 7);
     target.bind();
     glClearColor(0, 0, 0, 0);
     glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
     draw(surface_pipelines, view, clip_from_view);
     int location = 1;
-    for (Image* image :
-         {&images.position, &images.normal, &images.tangent, &images.eye_normal, &images.uv_and_curvature}) {
+    for (Image* image : {&images.position, &images.normal, &images.tangent, &images.eye_normal,
+                         &images.uv_and_curvature, &images.mesh_normal}) {
       paste(target.read(location++), tile, *image);
     }
   }
@@ -176,7 +176,7 @@ Frame Renderer::render(const View& view, const PictureSettings& settings, const 
   frame.colour = Image(settings.width, settings.height, 4);
   if (settings.surfaces) {
     const Image empty(settings.width, settings.height, 4);
-    frame.surfaces = SurfaceImages{empty, empty, empty, empty, empty};
+    frame.surfaces = SurfaceImages{empty, empty, empty, empty, empty, empty};
   }
   const int columns = (settings.width + side - 1) / side;
   const int rows = (settings.height + side - 1) / side;

@@ -25,7 +25,8 @@ void check(const Appearance& appearance, const ShadeInputs& inputs) {
                           {"positions", inputs.positions, 3},
                           {"occlusion", inputs.occlusion, 1},
                           {"UVs", inputs.uvs, 2},
-                          {"curvature", inputs.curvature, 1}};
+                          {"curvature", inputs.curvature, 1},
+                          {"mesh normals", inputs.mesh_normals, 3}};
   for (const Plane& plane : planes) {
     if (plane.image.empty()) continue;
     if (plane.image.width != inputs.normals.width || plane.image.height != inputs.normals.height) {
@@ -56,6 +57,11 @@ bool surface_of(const ShadeInputs& inputs, int x, int y, Surface& surface) {
   const Vec3 normal = xyz(inputs.normals, x, y);
   if (!(normal.squaredNorm() > 0)) return false;
   surface.normal = normal.normalized();
+  surface.mesh_normal = surface.normal;
+  if (!inputs.mesh_normals.empty()) {
+    const Vec3 mesh_normal = xyz(inputs.mesh_normals, x, y);
+    if (mesh_normal.squaredNorm() > 0) surface.mesh_normal = mesh_normal.normalized();
+  }
   if (!inputs.positions.empty()) {
     surface.position = xyz(inputs.positions, x, y);
     if (!(surface.position.squaredNorm() > 0)) return false;

@@ -17,6 +17,8 @@ struct ShadeInputs {
   Image occlusion = {};  ///< first channel
   Image uvs = {};        ///< u, v
   Image curvature = {};  ///< first channel, 1 / view-space unit
+  Image mesh_normals =
+      {};  ///< normals before any normal map, as `normals`; empty, or zero in a pixel: the same
 };
 
 /// Shades every pixel with the appearance's C++ evaluator, no rasteriser involved, in parallel. RGBA, linear;

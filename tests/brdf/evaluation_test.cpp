@@ -3,11 +3,13 @@
 
 #include <fstream>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 #include "brdf/random_directions.h"
+#include "sateen/brdf/conventions.h"
 #include "sateen/brdf/fibre_diffuse.h"
 #include "sateen/brdf/fuzz_approximations.h"
 #include "sateen/brdf/fuzz_integrals.h"
@@ -90,6 +92,15 @@ TEST(Evaluation, WrongParametersAreNamed) {
   EXPECT_THAT(message("hair", "{}"), HasSubstr("hair"));
 }
 
+TEST(Evaluation, SheenIsReadInPlaceOfFuzz) {
+  const FuzzParameters fuzz = from_sheen({{0.2, 0.5, 0.1}, 0.4});
+  EXPECT_LT(
+      (value("fuzz", R"({"convention": "gltf", "sheen_color": [0.2, 0.5, 0.1], "sheen_roughness": 0.4})") -
+       fuzz_brdf(fuzz, kLight, kView))
+          .norm(),
+      1e-12);
+}
+
 TEST(Evaluation, ConventionsAreReadInPlaceOfAlphas) {
   const Vec3 f0 = Vec3::Constant(0.04);
   EXPECT_LT((value("ggx", R"({"convention": "gltf", "roughness": 0.5, "anisotropy": 0.6, "rotation": 30})") -
@@ -100,6 +111,55 @@ TEST(Evaluation, ConventionsAreReadInPlaceOfAlphas) {
              ggx_brdf({0.1, 0.4, 0}, f0, kLight, kView))
                 .norm(),
             1e-12);
+}
+
+TEST(Evaluation, EveryModelAndTermIsFiniteAtTheEdges) {
+  const double t = std::sqrt(0.5);
+  const std::vector<Vec3> edges = {Vec3::UnitZ(),     Vec3::UnitX(),    Vec3::UnitY(),
+                                   -Vec3::UnitX(),    -Vec3::UnitZ(),   Vec3(t, 0, t),
+                                   Vec3(-t, 0, t),    Vec3(t, 0, -t),   Vec3(1, 0, 1e-9),
+                                   Vec3(0, 1, -1e-9), Vec3(1e-9, 0, 1), Vec3(0.6, -0.64, 0.48)};
+  std::vector<std::pair<std::string, std::string>> models = {
+      {"fibre-diffuse", "{}"},
+      {"fibre-diffuse", R"({"form": "printed"})"},
+      {"fibre-diffuse", R"({"form": "integral"})"},
+      {"fibre-diffuse", R"({"form": "maximum-normal"})"},
+      {"ggx", R"({"alpha_t": 1e-3, "alpha_b": 1, "f0": 1})"},
+      {"ggx", R"({"alpha_t": 1, "alpha_b": 1, "f0": 0, "energy_compensation": true})"}};
+  // The tilt puts the fibre on one of the edge directions. Integrals and fits, which take their time, once a
+  // phase.
+  for (const char* phase : {"sggx", "sggx-symmetric", "schlick"}) {
+    const auto add = [&](const char* term, const char* form, const char* rest) {
+      models.emplace_back(
+          "fuzz", fmt::format(R"({{"tilt": 45, {}, "phase": "{}", "term": "{}", "form": "{}"}})", rest, phase,
+                              term, form));
+    };
+    const char* thick = R"("alpha": 0.3, "density": 0.2)";
+    const char* none = R"("k": 0.5, "density": 0)";
+    for (const char* term : {"brdf", "g", "q", "ps", "attenuation"}) {
+      add(term, "exact", thick);
+      add(term, "exact", none);
+    }
+    for (const char* term : {"g", "q", "ps"}) add(term, "slides", thick);
+    add("r", "exact", thick);
+  }
+  for (const auto& [model, json] : models) {
+    const BrdfFunction brdf = parse_brdf(model, json, "test");
+    const bool costly = json.find("\"ps\"") != std::string::npos || json.find("atten") != std::string::npos;
+    for (const Vec3& light : edges) {
+      if (costly) {
+        const Vec3 value = brdf({light, Vec3(0.1, 0.2, 0.9).normalized()});
+        EXPECT_TRUE(value.allFinite() && value.minCoeff() >= -1e-6 && value.maxCoeff() <= 1 + 1e-6)
+            << model << " " << json << " light " << light.transpose() << ": " << value.transpose();
+        continue;
+      }
+      for (const Vec3& view : edges) {
+        const Vec3 value = brdf({light, view});
+        EXPECT_TRUE(value.allFinite() && value.minCoeff() >= 0)
+            << model << " " << json << " light " << light.transpose() << " view " << view.transpose();
+      }
+    }
+  }
 }
 
 TEST(Evaluation, TheProgramWritesAListAndLeavesNothingOnErrors) {
@@ -150,7 +210,7 @@ TEST(FuzzApproximations, ConstantsAreWhatTheFitsGive) {
   const VisibilityFit g = fit_visibility();
   for (std::size_t i = 0; i < 4; ++i) EXPECT_NEAR(g.coefficients[i], kVisibilitySlides[i], 1e-4);
   EXPECT_LT(g.error.rmse, 0.0125);
-  EXPECT_LT(g.error.largest, 0.105);
+  EXPECT_LT(g.error.largest, 0.1);
   const PassingFit q = fit_passing();
   for (std::size_t i = 0; i < 2; ++i) EXPECT_NEAR(q.coefficients[i], kPassingSlides[i], 1e-4);
   EXPECT_LT(q.error.rmse, 0.0048);
@@ -160,7 +220,7 @@ TEST(FuzzApproximations, ConstantsAreWhatTheFitsGive) {
 TEST(FuzzApproximations, ScatteredDownFitsReachTheirResidualsAndTheTableBeatsThem) {
   FuzzParameters fuzz;
   for (const auto& [alpha, rmse, largest] :
-       {std::array{0.2, 0.0365, 0.115}, std::array{0.5, 0.0105, 0.032}}) {
+       {std::array{0.2, 0.0365, 0.11}, std::array{0.5, 0.0101, 0.0295}}) {
     fuzz.alpha = alpha;
     fuzz.tilt = radians(45);
     const FitError six = fit_scattered_down(fuzz, ScatteredDownPolynomial::kSlidesDegree).error;
@@ -173,10 +233,10 @@ TEST(FuzzApproximations, ScatteredDownFitsReachTheirResidualsAndTheTableBeatsThe
     double worst = 0;
     for (int i = 0; i < 60; ++i) {
       const Vec3 u = test::random_up(random, 0.02);
-      worst = std::max(worst, std::abs(table.scattering(u).x() - fuzz_scattered_down(fuzz, u, 1e-5)));
+      worst = std::max(worst, std::abs(table.scattered_down(u).x() - fuzz_scattered_down(fuzz, u, 1e-5)));
     }
     EXPECT_LT(worst, six.largest / 8);
-    EXPECT_NEAR(table.scattered_down, fuzz_scattered_down_albedo(fuzz, 1e-4), 1e-3);
+    EXPECT_NEAR(table.scattered_down_mean, fuzz_scattered_down_albedo(fuzz, 1e-4), 1e-3);
   }
 }
 

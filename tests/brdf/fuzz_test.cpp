@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "brdf/chi_squared.h"
 #include "brdf/random_directions.h"
 #include "sateen/brdf/fuzz_integrals.h"
 #include "sateen/brdf/quadrature.h"
@@ -199,23 +200,61 @@ TEST(FuzzIntegrals, VisibilityAndUniformResponseAgreeWithPlainSummation) {
   }
 }
 
+TEST(Fuzz, SamplesFollowTheSggxPhaseFunction) {
+  std::mt19937 random(9);
+  for (int i = 0; i < 4; ++i) {
+    const FuzzParameters fuzz = random_fuzz(random, FuzzPhase::sggx);
+    const Vec3 light = test::random_unit(random);
+    const auto sample = [&] {
+      return fuzz_sample_view(fuzz, light, {random_in(random, 0, 1), random_in(random, 0, 1)});
+    };
+    const auto density = [&](const Vec3& v) { return fuzz_phase(fuzz, light, v); };
+    EXPECT_LT(test::deviation_from_density(sample, density, 100000), 4)
+        << "alpha " << fuzz.alpha << " tilt " << fuzz.tilt;
+  }
+}
+
+/// The ambient slides' product G (1 - P_s) over the integral it stands for, in uniform light, and the same
+/// with the integral of p(u, v) over lights u in place of 1 - P_s(v), which is the integral of p(v, u).
+struct ProductError {
+  double product = 0;
+  double exchanged = 0;
+};
+ProductError product_error(const FuzzParameters& fuzz, const Vec3& v) {
+  const double visibility = fuzz_visibility(fuzz.density, v.z());
+  const double response = fuzz_uniform_response(fuzz, v, 1e-6);
+  const double up = test::midpoint_hemisphere([&](const Vec3& u) { return fuzz_phase(fuzz, u, v); }, 120);
+  return {visibility * (1 - fuzz_scattered_down(fuzz, v, 1e-5)) / response, visibility * up / response};
+}
+
+Vec3 polar(double degrees_from_normal, double azimuth) {
+  const double theta = radians(degrees_from_normal);
+  return {std::sin(theta) * std::cos(azimuth), std::sin(theta) * std::sin(azimuth), std::cos(theta)};
+}
+
 TEST(FuzzIntegrals, TheSlidesAmbientProductIsTooBrightForGatheredFibres) {
+  // 1 - P_s(v) is divided by sigma(v), the response by sigma(u) of the lights. For a view along the fibre
+  // sigma(v) = alpha, while the lights it scatters from have sigma near 1: the product is too bright by up to
+  // 1 / alpha times what taking G out of the integral costs. Measured: 4.8 along the fibre, 3.4 at 10 to 14
+  // degrees beside it, 2 at 30. With the arguments exchanged only the second factor is left.
   FuzzParameters fuzz;
   fuzz.alpha = 0.2;
   fuzz.tilt = radians(45);
   fuzz.density = 0.2;
   double worst = 0;
+  double worst_exchanged = 0;
   for (int i = 0; i < 12; ++i) {
-    for (int j = 0; j < 7; ++j) {
-      const double theta = radians(2 + 7 * i);
-      const double phi = kPi * j / 6;
-      const Vec3 v(std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta));
-      const double product = fuzz_visibility(fuzz.density, v.z()) * (1 - fuzz_scattered_down(fuzz, v, 1e-5));
-      worst = std::max(worst, product / fuzz_uniform_response(fuzz, v, 1e-5));
+    for (int j = 0; j < 5; ++j) {
+      const ProductError error = product_error(fuzz, polar(3 + 7 * i, kPi * j / 4));
+      worst = std::max(worst, error.product);
+      worst_exchanged = std::max(worst_exchanged, error.exchanged);
     }
   }
-  EXPECT_GT(worst, 2.5);
-  EXPECT_LT(worst, 6);
+  EXPECT_LT(worst_exchanged, 1.65);
+  EXPECT_LT(worst, worst_exchanged / fuzz.alpha);
+  EXPECT_NEAR(worst, 4.8, 0.1);  // the grid has the view along the fibre
+  fuzz.alpha = 0.95;
+  EXPECT_NEAR(product_error(fuzz, polar(45, 0)).product, 1.04, 0.005);
 }
 
 }  // namespace

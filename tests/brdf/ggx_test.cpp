@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "brdf/chi_squared.h"
 #include "brdf/random_directions.h"
 
 namespace sateen {
@@ -113,61 +114,43 @@ TEST(Ggx, CompensationClosesTheFurnace) {
   }
 }
 
+TEST(Ggx, CompensatedSurfacesAreReciprocalAndReflectAtMostEverything) {
+  std::mt19937 random(7);
+  for (int i = 0; i < 6; ++i) {
+    const AnisotropicRoughness r = random_roughness(random, 0.2);
+    const Vec3 f0(random_in(random, 0, 1), 0.04, 1);
+    const double mean = ggx_mean_albedo(r);
+    const auto albedo = [&](const Vec3& w) { return ggx_albedo(r, w, 16).total(); };
+    const Vec3 v = random_up(random, 0.05);
+    const Vec3 u = random_up(random, 0.05);
+    const double at_v = albedo(v);
+    const Vec3 forth = ggx_multiple_scattering(f0, albedo(u), at_v, mean);
+    EXPECT_LT((forth - ggx_multiple_scattering(f0, at_v, albedo(u), mean)).norm(), 1e-12);
+    EXPECT_GE(forth.minCoeff(), 0);
+    const GgxAlbedo single = ggx_albedo(r, v);
+    Vec3 sum = f0 * single.scale + Vec3::Constant(single.bias);
+    for (int c = 0; c < 3; ++c) {
+      sum[c] += test::midpoint_hemisphere(
+          [&](const Vec3& l) { return ggx_multiple_scattering(f0, albedo(l), at_v, mean)[c] * l.z(); }, 16);
+    }
+    EXPECT_LE(sum.maxCoeff(), 1 + 4e-3);
+  }
+}
+
 TEST(Ggx, VisibleNormalSamplesFollowTheirDensity) {
-  // Chi-squared over cells of the sphere of lights, in equal-area (z, phi) cells with densities integrated
-  // cell by cell.
-  constexpr int kZ = 20;
-  constexpr int kPhi = 24;
-  constexpr int kSamples = 200000;
   std::mt19937 random(6);
   for (const AnisotropicRoughness r :
        {AnisotropicRoughness{0.5, 0.15, 0.3}, AnisotropicRoughness{0.2, 0.9, 1.0},
         AnisotropicRoughness{0.4, 0.4, 0}}) {
     const Vec3 view = random_up(random, 0.2);
-    std::vector<double> observed(kZ * kPhi, 0);
-    for (int i = 0; i < kSamples; ++i) {
+    const auto sample = [&]() -> Vec3 {
       const Vec3 h = ggx_sample_visible(r, view, {random_in(random, 0, 1), random_in(random, 0, 1)});
-      const Vec3 u = 2 * view.dot(h) * h - view;
-      const int z = std::clamp(static_cast<int>((u.z() + 1) / 2 * kZ), 0, kZ - 1);
-      const int phi =
-          std::clamp(static_cast<int>((std::atan2(u.y(), u.x()) / kPi + 1) / 2 * kPhi), 0, kPhi - 1);
-      observed[static_cast<std::size_t>(z * kPhi + phi)] += 1;
-    }
-    double chi_squared = 0;
-    double pooled_expected = 0;
-    double pooled_observed = 0;
-    int cells = 0;
-    const auto add = [&](double expected, double seen) {
-      chi_squared += (seen - expected) * (seen - expected) / expected;
-      ++cells;
+      return 2 * view.dot(h) * h - view;
     };
-    for (int z = 0; z < kZ; ++z) {
-      for (int phi = 0; phi < kPhi; ++phi) {
-        constexpr int kSub = 24;
-        double density = 0;
-        for (int a = 0; a < kSub; ++a) {
-          for (int b = 0; b < kSub; ++b) {
-            const double c = -1 + 2 * (z + (a + 0.5) / kSub) / kZ;
-            const double angle = -kPi + 2 * kPi * (phi + (b + 0.5) / kSub) / kPhi;
-            const double s = std::sqrt(1 - c * c);
-            density += ggx_visible_pdf(r, Vec3(s * std::cos(angle), s * std::sin(angle), c), view);
-          }
-        }
-        const double expected = density / (kSub * kSub) * (4 * kPi / (kZ * kPhi)) * kSamples;
-        const double seen = observed[static_cast<std::size_t>(z * kPhi + phi)];
-        if (expected < 10) {
-          pooled_expected += expected;
-          pooled_observed += seen;
-        } else {
-          add(expected, seen);
-        }
-      }
-    }
-    if (pooled_expected > 10) add(pooled_expected, pooled_observed);
-    // Wilson and Hilferty: (chi^2 / n)^(1/3) is nearly normal; 4 sigma.
-    const double n = cells - 1;
-    const double z = (std::cbrt(chi_squared / n) - (1 - 2 / (9 * n))) / std::sqrt(2 / (9 * n));
-    EXPECT_LT(z, 4) << "alpha " << r.alpha_t << " " << r.alpha_b << ", chi^2 " << chi_squared << " of " << n;
+    EXPECT_LT(test::deviation_from_density(
+                  sample, [&](const Vec3& u) { return ggx_visible_pdf(r, u, view); }, 200000),
+              4)
+        << "alpha " << r.alpha_t << " " << r.alpha_b;
   }
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "sateen/brdf/layered.h"
 
+#include <algorithm>
+#include <array>
 #include <fstream>
 
 #include <gmock/gmock.h>
@@ -130,6 +132,39 @@ TEST(LayeredOnGpu, TheSlidesFormsEqualTheEvaluator) {
   expect_gpu_agrees(material);
 }
 
+/// A tangent-space normal map of waves.
+std::shared_ptr<const TextureData> waves() {
+  auto texture = std::make_shared<TextureData>();
+  texture->format = TextureData::Format::rgba8;
+  texture->width = texture->height = 64;
+  texture->wrap_u = texture->wrap_v = TextureData::Wrap::repeat;
+  std::vector<std::byte> texels;
+  for (int y = 0; y < 64; ++y) {
+    for (int x = 0; x < 64; ++x) {
+      const Vec3 n = Vec3(0.5 * std::sin(x * 0.6), 0.5 * std::cos(y * 0.4), 1).normalized();
+      for (int c = 0; c < 3; ++c) texels.push_back(static_cast<std::byte>(std::lround(255 * (n[c] + 1) / 2)));
+      texels.push_back(std::byte{255});
+    }
+  }
+  texture->levels.push_back(std::move(texels));
+  return texture;
+}
+
+TEST(LayeredOnGpu, FuzzWithSmoothedNormalsEqualsTheEvaluator) {
+  LayeredMaterial material = fuzzy();
+  material.specular = glossy().specular;
+  for (const double smoothing : {0.0, 0.6, 1.0}) {
+    material.fuzz_smoothing = smoothing;
+    Scene scene =
+        test::scene_of(test::torus(), std::make_shared<const LayeredAppearance>(material, everything()));
+    scene.materials[0].normal_map.texture = waves();
+    const Frame frame = test::render(scene, {});
+    const test::Difference difference = test::against_evaluator(frame, scene.materials, kTolerance);
+    EXPECT_GT(difference.pixels, 1000);
+    EXPECT_EQ(difference.failing, 0) << "smoothing " << smoothing << ": " << difference.largest;
+  }
+}
+
 TEST(LayeredOnGpu, SimpleFuzzEqualsTheEvaluator) {
   LayeredMaterial material;
   material.simple_fuzziness = 0.6;
@@ -169,19 +204,50 @@ TEST(Layered, FuzzInUniformLightIsItsIntegral) {
     worst_table = std::max(worst_table, std::abs(std::log(table.evaluate(flat(v)).x() / exact)));
     worst_slides = std::max(worst_slides, std::abs(std::log(slides.evaluate(flat(v)).x() / exact)));
   }
-  EXPECT_LT(worst_table, std::log(1.08));
+  EXPECT_LT(worst_table, std::log(1.02));
   EXPECT_GT(worst_slides, std::log(1.5));
+}
+
+TEST(Layered, SmoothingTurnsTheFuzzTowardsTheMeshsNormalAndLeavesTheBase) {
+  LayeredMaterial material = fuzzy();
+  material.base_colour = Vec3::Zero();
+  LayeredMaterial smooth = material;
+  smooth.fuzz_smoothing = 1;
+  Surface bumpy = flat(Vec3(0.2, -0.3, 0.9).normalized());
+  bumpy.normal = Vec3(0.3, 0.1, 0.9).normalized();
+  bumpy.tangent = (Vec3::UnitX() - bumpy.normal * bumpy.normal.x()).normalized();
+  const Surface plain = flat(bumpy.view);
+  const auto look = [](const LayeredMaterial& m, const Surface& s) {
+    return LayeredAppearance(m, everything()).evaluate(s);
+  };
+  // The tangent of the bumpy surface, brought back, is the plain one's up to a turn that a fibre along it
+  // sees.
+  const Vec3 back = (bumpy.tangent - Vec3::UnitZ() * bumpy.tangent.z()).normalized();
+  ASSERT_LT((back - plain.tangent).norm(), 0.05);
+  Surface turned = plain;
+  turned.tangent = back;
+  EXPECT_LT((look(smooth, bumpy) - look(material, turned)).norm(), 1e-9);
+  EXPECT_GT((look(material, bumpy) - look(material, turned)).norm(), 0.01);
+  // Half way lies between; without fuzz nothing changes.
+  smooth.fuzz->density = material.fuzz->density = 0;
+  smooth.base_colour = material.base_colour = Vec3::Ones();
+  EXPECT_LT((look(smooth, bumpy) - look(material, bumpy)).norm(), 1e-6);
 }
 
 /// Radiance towards `view` in the sky by importance-free summation: f (n.u) L over the hemisphere.
 Vec3 summed(const std::function<Vec3(const Vec3&)>& brdf, const Image& light) {
-  Vec3 sum;
-  for (int channel = 0; channel < 3; ++channel) {
-    sum[channel] = test::midpoint_hemisphere(
-        [&](const Vec3& u) { return brdf(u)[channel] * u.z() * environment_radiance(light, u)[channel]; },
-        160);
+  constexpr int kSteps = 160;
+  Vec3 sum = Vec3::Zero();
+  for (int i = 0; i < kSteps; ++i) {
+    const double z = (i + 0.5) / kSteps;
+    const double r = std::sqrt(1 - z * z);
+    for (int j = 0; j < 2 * kSteps; ++j) {
+      const double phi = kPi * (j + 0.5) / kSteps;
+      const Vec3 u(r * std::cos(phi), r * std::sin(phi), z);
+      sum += brdf(u).cwiseProduct(environment_radiance(light, u)) * z;
+    }
   }
-  return sum;
+  return sum * (kPi / (kSteps * kSteps));
 }
 
 TEST(Layered, SurroundingsAreCloseToTheIntegralOfTheBrdf) {
@@ -202,6 +268,15 @@ TEST(Layered, SurroundingsAreCloseToTheIntegralOfTheBrdf) {
   LayeredMaterial slides = fuzz;
   slides.fuzz_slides = true;
   const LayeredAppearance slides_look(slides, lighting);
+  // The sky as its nine coefficients see it: what is left of the error there is the lobe's, not the bands'.
+  Image bands = light;
+  for (int y = 0; y < bands.height; ++y) {
+    for (int x = 0; x < bands.width; ++x) {
+      const Vec3 d = environment_direction({(x + 0.5) / bands.width, (y + 0.5) / bands.height});
+      bands.set_rgb(x, y, lighting.harmonics.radiance(d).cast<float>());
+    }
+  }
+  double band_error = 0;
   double slides_error = 0;
   double gloss_error = 0;
   double fuzz_error = 0;
@@ -213,13 +288,18 @@ TEST(Layered, SurroundingsAreCloseToTheIntegralOfTheBrdf) {
     gloss_error += (gloss_look.evaluate(flat(v)) - g).norm() / g.norm() / kViews;
     const Vec3 f = summed([&](const Vec3& u) { return fuzz_brdf(*fuzz.fuzz, u, v); }, light);
     fuzz_error += (fuzz_look.evaluate(flat(v)) - f).norm() / f.norm() / kViews;
+    const Vec3 b = summed([&](const Vec3& u) { return fuzz_brdf(*fuzz.fuzz, u, v); }, bands);
+    band_error += (fuzz_look.evaluate(flat(v)) - b).norm() / b.norm() / kViews;
     slides_error += (slides_look.evaluate(flat(v)) - f).norm() / f.norm() / kViews;
   }
   RecordProperty("gloss", std::to_string(gloss_error));
   RecordProperty("fuzz", std::to_string(fuzz_error));
-  EXPECT_LT(gloss_error, 0.12);
+  EXPECT_LT(gloss_error, 0.06);
   RecordProperty("slides", std::to_string(slides_error));
-  EXPECT_LT(fuzz_error, 0.1);
+  RecordProperty("fuzz in bands", std::to_string(band_error));
+  // Measured: 7.5 % in the sky, 3.5 % in its bands. The window is narrower than three bands can say.
+  EXPECT_LT(fuzz_error, 0.08);
+  EXPECT_LT(band_error, 0.04);
   EXPECT_LT(fuzz_error, 0.4 * slides_error);
   const Vec3 d = summed(
       [&](const Vec3& u) {
@@ -227,6 +307,85 @@ TEST(Layered, SurroundingsAreCloseToTheIntegralOfTheBrdf) {
       },
       light);
   EXPECT_LT((fibre_look.evaluate(flat(Vec3::UnitZ())) - d).norm() / d.norm(), 0.03);
+}
+
+TEST(Layered, DiffuseUnderFuzzInUniformLightIsItsIntegral) {
+  std::mt19937 random(6);
+  LayeredMaterial material = fuzzy();
+  material.fuzz->density = 0.4;
+  material.base_colour = Vec3::Ones();
+  LayeredMaterial black = material;
+  black.base_colour = Vec3::Zero();
+  const LayeredAppearance whole(material, uniform_light());
+  const LayeredAppearance fuzz_alone(black, uniform_light());
+  for (int i = 0; i < 4; ++i) {
+    const Vec3 v = random_up(random, 0.2);
+    const Vec3 base = whole.evaluate(flat(v)) - fuzz_alone.evaluate(flat(v));
+    // The attenuation over the hemisphere with the cosine; P_s by quadrature. Costly, so on a coarse grid.
+    Vec3 exact = Vec3::Zero();
+    constexpr int kSteps = 12;
+    for (int a = 0; a < kSteps; ++a) {
+      const double z = std::sqrt((a + 0.5) / kSteps);  // even in z^2: the cosine's weight
+      for (int b = 0; b < 2 * kSteps; ++b) {
+        const double phi = kPi * (b + 0.5) / kSteps;
+        const double r = std::sqrt(1 - z * z);
+        const Vec3 u(r * std::cos(phi), r * std::sin(phi), z);
+        exact += fuzz_attenuation(*material.fuzz, u, v, fuzz_scattered_down(*material.fuzz, u, 1e-4)) /
+                 (2 * kSteps * kSteps);
+      }
+    }
+    EXPECT_LT((base - exact).norm() / exact.norm(), 0.01);
+  }
+}
+
+TEST(Layered, SpecularProbesUnderFuzzAreCloseToTheIntegral) {
+  // The reflection alone is what is left when the same fuzz over black is taken away.
+  std::mt19937 random(7);
+  const Image light = sky();
+  Lighting lighting;
+  lighting.set_environment(light);
+  LayeredMaterial material = fuzzy();
+  material.base_colour = Vec3::Zero();
+  const FuzzParameters fuzz = *material.fuzz;
+  const FibreTable down = make_fuzz_table(fuzz).scattered_down;
+  const double turn = fuzz.azimuth;
+  for (const AnisotropicRoughness& roughness :
+       {AnisotropicRoughness{0.15, 0.5, 0.4}, AnisotropicRoughness{0.3, 0.3, 0}}) {
+    material.specular = GgxParameters{roughness, {0.9, 0.6, 0.3}, false};
+    LayeredMaterial bare = material;
+    bare.specular.reset();
+    LayeredMaterial slides = material;
+    slides.fuzz_slides = true;
+    LayeredMaterial bare_slides = bare;
+    bare_slides.fuzz_slides = true;
+    const LayeredAppearance looks[2][2] = {
+        {LayeredAppearance(material, lighting), LayeredAppearance(bare, lighting)},
+        {LayeredAppearance(slides, lighting), LayeredAppearance(bare_slides, lighting)}};
+    double errors[2] = {0, 0};
+    constexpr int kViews = 10;
+    for (int i = 0; i < kViews; ++i) {
+      const Vec3 v = random_up(random, 0.15);
+      const Vec3 exact = summed(
+          [&](const Vec3& u) -> Vec3 {
+            const Vec3 local(std::cos(turn) * u.x() + std::sin(turn) * u.y(),
+                             std::cos(turn) * u.y() - std::sin(turn) * u.x(), u.z());
+            return ggx_brdf(roughness, material.specular->f0, u, v)
+                .cwiseProduct(fuzz_attenuation(fuzz, u, v, down(local).x()));
+          },
+          light);
+      for (int form = 0; form < 2; ++form) {
+        const Vec3 probe = looks[form][0].evaluate(flat(v)) - looks[form][1].evaluate(flat(v));
+        errors[form] += (probe - exact).norm() / exact.norm() / kViews;
+      }
+    }
+    RecordProperty("exact integrals", std::to_string(errors[0]));
+    RecordProperty("slides", std::to_string(errors[1]));
+    // One factor stands for all lights, and the lookups have an error of their own. Attenuating each lookup
+    // along its direction was worse: 0.147 for alpha 0.3, whose lobe at grazing views does not lie about the
+    // mirror direction.
+    EXPECT_LT(errors[0], 0.12);
+    EXPECT_LT(errors[1], 0.12);
+  }
 }
 
 TEST(Layered, SeveralLobeSamplesBeatOne) {
@@ -254,25 +413,36 @@ TEST(Layered, AnisotropyStaysVisibleInAmbientLightAlone) {
   LayeredMaterial material = fuzzy();
   material.base_colour = Vec3::Zero();
   material.fuzz->azimuth = 0;
+  material.fuzz->colour = Vec3::Ones();
   const Vec3 v = Vec3(0.7, 0, 0.7).normalized();
   // The nap leaning towards the eye, across and away from it: nothing else changes, and the light is the same
   // all round.
-  const auto contrast = [&](bool slides) {
+  const Vec3 tangents[] = {Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(-1, 0, 0)};
+  const auto contrast = [](const std::array<double, 3>& radiance) {
+    return *std::ranges::max_element(radiance) / *std::ranges::min_element(radiance);
+  };
+  const auto shaded = [&](bool slides) {
     material.fuzz_slides = slides;
     const LayeredAppearance appearance(material, uniform_light());
-    double darkest = 1e9;
-    double brightest = 0;
-    for (const Vec3& tangent : {Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(-1, 0, 0)}) {
+    std::array<double, 3> radiance{};
+    for (std::size_t i = 0; i < 3; ++i) {
       Surface surface = flat(v);
-      surface.tangent = tangent;
-      const double radiance = appearance.evaluate(surface).x();
-      darkest = std::min(darkest, radiance);
-      brightest = std::max(brightest, radiance);
+      surface.tangent = tangents[i];
+      radiance[i] = appearance.evaluate(surface).x();
     }
-    return brightest / darkest;
+    return contrast(radiance);
   };
-  EXPECT_GT(contrast(false), 1.5);
-  EXPECT_GT(contrast(true), 1.05);
+  std::array<double, 3> exact{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    FuzzParameters turned = *material.fuzz;
+    turned.azimuth = std::atan2(tangents[i].y(), tangents[i].x());
+    exact[i] = fuzz_uniform_response(turned, v, 1e-6);
+  }
+  EXPECT_GT(contrast(exact), 2);
+  EXPECT_NEAR(shaded(false) / contrast(exact), 1, 0.03);
+  // The slides' product keeps some of it: what P_s(v) says of the view, without the division by sigma.
+  EXPECT_GT(shaded(true), 1.05);
+  EXPECT_LT(shaded(true), contrast(exact));
 }
 
 TEST(Layered, NoFuzzIsTheBaseAlone) {

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "sateen/core/appearance.h"
+
+namespace sateen {
+
+/// Four values for every direction w of the upper hemisphere that are the same on both sides of the plane of
+/// fibre and normal: light scattered by a fibre changes fast with the angle between w and the fibre and
+/// slowly along the cone of equal angles, so the table is fine along the first and coarse along the second.
+/// Read bilinearly at
+///   along:  sqrt(1 - w.t) - sqrt(1 + w.t), nearly even in the angle, without trigonometry in the shader;
+///   across: w.n between its least (at the horizon at least) and greatest value on that cone.
+/// shaders/fibre_table.glsl reads the same texels.
+class FibreTable {
+ public:
+  FibreTable() = default;
+  /// `fibre` is unit, in the x-z plane, z >= 0. Calls `f` once a texel, in parallel, for directions on the
+  /// side of positive y, a little inside the hemisphere and off the plane.
+  FibreTable(const Vec3& fibre, int along, int across, const std::function<Vec4(const Vec3&)>& f);
+
+  /// Directions below the horizon read the horizon. Texels are held in single precision, as the GPU does.
+  Vec4 operator()(const Vec3& direction) const;
+  /// rgba32f, or rg32f with the first two values only; `along` to the right.
+  std::shared_ptr<const TextureData> texture(bool two_values = false) const;
+  /// What takes the first coordinate to [0, 1] over the texels' middles: scale and offset.
+  Vec2 along_coordinate() const;
+
+ private:
+  struct Cone {
+    double lowest, highest;  ///< of w.n
+  };
+  Cone cone(double cosine) const;
+  double last_along() const;
+  Vec3 direction(double along, double across) const;
+
+  Vec3 fibre_{0, 0, 1};
+  int along_ = 0;
+  int across_ = 0;
+  std::vector<Vec4f> texels_;
+};
+
+}  // namespace sateen
