@@ -12,8 +12,8 @@ namespace sateen {
 
 /// The albedo of GGX by angle and roughness, for lobes that change from texel to texel. An anisotropic lobe
 /// is looked up as the isotropic one that a view meets: alpha^2 = vx^2 alpha_t^2 + vy^2 alpha_b^2 + vz^2
-/// alpha_t alpha_b for a view (vx, vy, vz) in the frame of its axis. Within 0.05 of ggx_albedo for alphas up
-/// to 10 : 1.
+/// alpha_t alpha_b for a view (vx, vy, vz) in the frame of its axis. Rough at grazing views: up to 0.32 from
+/// ggx_albedo where the view's cosine is 0.05 and the alphas are as far apart as 10 : 1.
 class GgxAlbedoTable {
  public:
   GgxAlbedoTable();
