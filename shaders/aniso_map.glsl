@@ -29,9 +29,9 @@ AnisotropicLobe decode_anisotropy_root(vec3 channels) {
                          long_axis(half_difference, off));
 }
 
-// Encoding `correlation`, the slides': hardware interpolates the channels, not the matrix, so the result may be
-// non-positive or larger than 1: both eigenvalues are clamped. The small one comes from the determinant, which does not
-// cancel.
+// Encoding `correlation`, the slides': hardware interpolates the channels, not the matrix, so the result may be singular
+// or larger than 1 (outside [0, 1] also negative): both eigenvalues are clamped. The small one comes from the determinant,
+// which does not cancel.
 AnisotropicLobe decode_anisotropy_correlation(vec3 channels) {
   float xx = channels.x * channels.x;
   float yy = channels.z * channels.z;

@@ -29,7 +29,7 @@ void refuse(const Arguments& a, bool uv) {
       !a.roughness_u.empty() || !a.roughness_v.empty() || !a.gloss_u.empty() || !a.gloss_v.empty();
   const bool other_given = !a.roughness.empty() || !a.amount.empty();
   if (uv && other_given) {
-    throw CLI::ValidationError("--roughness and --anisotropy go with --style gltf, blender or substance");
+    throw CLI::ValidationError("--roughness and --anisotropy go with the styles other than uv");
   }
   if (!uv && uv_given) throw CLI::ValidationError("--roughness-u, -v and --gloss-u, -v go with --style uv");
   if (uv && (a.roughness_u.empty() != a.roughness_v.empty() || a.gloss_u.empty() != a.gloss_v.empty())) {
@@ -77,15 +77,16 @@ void add_maps_aniso_author(CLI::App& parent) {
       "never sRGB, and of one size. alpha = roughness^2; gloss = 1 - roughness; V and angles run up.");
   command->add_option("-o,--output", a->output, "The anisotropy map: .png or .exr")->required();
   command->add_option("--style", a->style, "Whose meaning the inputs have")
-      ->check(CLI::IsMember({"uv", "gltf", "blender", "substance"}));
+      ->check(CLI::IsMember({"uv", "gltf", "blender", "substance", "materialx", "filament"}));
   command->add_option("--roughness-u", a->roughness_u,
                       "uv: roughness along U (along the rotated axis) [0, 1]");
   command->add_option("--roughness-v", a->roughness_v, "uv: roughness along V (across it) [0, 1]");
   command->add_option("--gloss-u", a->gloss_u, "uv: gloss instead [0, 1]");
   command->add_option("--gloss-v", a->gloss_v, "uv: gloss instead [0, 1]");
-  command->add_option("--roughness", a->roughness, "gltf, blender, substance: roughness [0, 1]");
-  command->add_option("--anisotropy", a->amount,
-                      "glTF strength, Blender's anisotropic, Substance's level [0, 1]");
+  command->add_option("--roughness", a->roughness, "all styles but uv: roughness [0, 1]");
+  command->add_option(
+      "--anisotropy", a->amount,
+      "glTF strength, Blender's anisotropic, Substance's level, the others' anisotropy [0, 1]");
   command->add_option("--rotation", a->rotation,
                       "Angle from U towards V: degrees, or a map whose 1 is --angle-range");
   command->add_option("--angle-range", a->angle_range, "Degrees that a value of 1 in an angle map means");

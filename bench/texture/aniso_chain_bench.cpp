@@ -4,9 +4,11 @@
 // between.
 #include <cstdint>
 #include <filesystem>
+#include <string>
 
 #include <benchmark/benchmark.h>
 
+#include "sateen/core/parallel.h"
 #include "sateen/io/image_rows.h"
 #include "sateen/texture/lobe_files.h"
 #include "support/files.h"
@@ -91,29 +93,38 @@ void chain(benchmark::State& state, LobeOutput::Kind kind, MipKernel kernel, Bc7
   report(state);
 }
 
+/// Reads one of the maps and writes files of the sizes of its chain.
+void copy_chain(const fs::path& path, const std::string& name) {
+  ImageRowReader reader(path);
+  std::vector<float> strip(static_cast<std::size_t>(kSize) * 64 * 3);
+  ImageRowWriter writer(maps().folder() / (name + "_0.png"), name, kSize, kSize, 3, RowSamples::u8);
+  for (int y = 0; y < kSize; y += 64) {
+    reader.read(strip);
+    writer.write(strip);
+  }
+  writer.close();
+  // Rows of the smaller levels: the same texels, for the same kind of content.
+  for (int size = kSize / 2; size >= 1; size /= 2) {
+    ImageRowWriter level(maps().folder() / (name + "_n.png"), name, size, size, 3, RowSamples::u8);
+    for (int y = 0; y < size; ++y) {
+      level.write(std::span(strip).subspan(static_cast<std::size_t>(y % 64 * kSize * 3),
+                                           static_cast<std::size_t>(size * 3)));
+    }
+    level.close();
+  }
+}
+
+/// Both maps side by side, on as many threads as the chain uses for its files.
 void io(benchmark::State& state) {
   maps();
   for (auto _ : state) {
-    for (const fs::path& path : {maps().files().normals, maps().files().anisotropy}) {
-      ImageRowReader reader(path);
-      std::vector<std::vector<float>> strips;
-      std::vector<float> strip(static_cast<std::size_t>(kSize) * 64 * 3);
-      ImageRowWriter writer(maps().folder() / "io_0.png", "io_0.png", kSize, kSize, 3, RowSamples::u8);
-      for (int y = 0; y < kSize; y += 64) {
-        reader.read(strip);
-        writer.write(strip);
+    parallel_for(2, [](int map) {
+      if (map == 0) {
+        copy_chain(maps().files().normals, "io_normal");
+      } else {
+        copy_chain(maps().files().anisotropy, "io_aniso");
       }
-      writer.close();
-      // Rows of the smaller levels: the same texels, for the same kind of content.
-      for (int size = kSize / 2; size >= 1; size /= 2) {
-        ImageRowWriter level(maps().folder() / "io_n.png", "io_n.png", size, size, 3, RowSamples::u8);
-        for (int y = 0; y < size; ++y) {
-          level.write(std::span(strip).subspan(static_cast<std::size_t>(y % 64 * kSize * 3),
-                                               static_cast<std::size_t>(size * 3)));
-        }
-        level.close();
-      }
-    }
+    });
   }
   report(state);
 }

@@ -12,8 +12,19 @@ namespace sateen {
 
 namespace {
 
-/// The same surface with the larger alpha along the axis.
+double unit(double v) {
+  return std::clamp(v, 0.0, 1.0);
+}
+
+/// The alpha of a perceptual roughness.
+double alpha_of(double roughness) {
+  return std::max(unit(roughness) * unit(roughness), kMinimumAlpha);
+}
+
+/// The same surface with the larger alpha along the axis, alphas in range.
 AnisotropicRoughness ordered(AnisotropicRoughness roughness) {
+  roughness.alpha_t = std::clamp(roughness.alpha_t, kMinimumAlpha, 1.0);
+  roughness.alpha_b = std::clamp(roughness.alpha_b, kMinimumAlpha, 1.0);
   if (roughness.alpha_t < roughness.alpha_b) {
     std::swap(roughness.alpha_t, roughness.alpha_b);
     roughness.azimuth += kPi / 2;
@@ -23,8 +34,8 @@ AnisotropicRoughness ordered(AnisotropicRoughness roughness) {
 }
 
 AnisotropicRoughness of_aspect(double roughness, double aspect, double rotation) {
-  const double alpha = std::max(roughness * roughness, kMinimumAlpha);
-  return {std::min(alpha / aspect, 1.0), alpha * aspect, rotation};
+  const double alpha = alpha_of(roughness);
+  return {std::min(alpha / aspect, 1.0), std::max(alpha * aspect, kMinimumAlpha), rotation};
 }
 
 /// x in [low, high] with f(x) = value, f rising.
@@ -53,9 +64,19 @@ constexpr double kLowestSheenRoughness = 0.01;
 
 }  // namespace
 
+AnisotropicRoughness from_uv(const UvRoughness& uv) {
+  return {alpha_of(uv.along), alpha_of(uv.across), uv.rotation};
+}
+
+UvRoughness to_uv(const AnisotropicRoughness& roughness) {
+  const AnisotropicRoughness r = ordered(roughness);
+  return {std::sqrt(r.alpha_t), std::sqrt(r.alpha_b), r.azimuth};
+}
+
 AnisotropicRoughness from_gltf(const AnisotropyParameters& gltf) {
-  const double alpha = std::max(gltf.roughness * gltf.roughness, kMinimumAlpha);
-  return {alpha + (1 - alpha) * gltf.anisotropy * gltf.anisotropy, alpha, gltf.rotation};
+  const double alpha = alpha_of(gltf.roughness);
+  const double strength = unit(gltf.anisotropy);
+  return {alpha + (1 - alpha) * strength * strength, alpha, gltf.rotation};
 }
 
 AnisotropyParameters to_gltf(const AnisotropicRoughness& roughness) {
@@ -76,7 +97,7 @@ AnisotropyParameters to_materialx(const AnisotropicRoughness& roughness) {
 }
 
 AnisotropicRoughness from_blender(const AnisotropyParameters& blender) {
-  const double aspect = std::sqrt(1 - 0.9 * std::clamp(blender.anisotropy, 0.0, 1.0));
+  const double aspect = std::sqrt(1 - 0.9 * unit(blender.anisotropy));
   return of_aspect(blender.roughness, aspect, blender.rotation);
 }
 
@@ -86,9 +107,10 @@ AnisotropyParameters to_blender(const AnisotropicRoughness& roughness) {
 }
 
 AnisotropicRoughness from_filament(const AnisotropyParameters& filament) {
-  const double alpha = filament.roughness * filament.roughness;
+  const double alpha = alpha_of(filament.roughness);
+  const double strength = std::clamp(filament.anisotropy, -1.0, 1.0);
   const auto side = [&](double sign) {
-    return std::clamp(alpha * (1 + sign * filament.anisotropy), kMinimumAlpha, 1.0);
+    return std::clamp(alpha * (1 + sign * strength), kMinimumAlpha, 1.0);
   };
   return {side(1), side(-1), filament.rotation};
 }
@@ -97,6 +119,17 @@ AnisotropyParameters to_filament(const AnisotropicRoughness& roughness) {
   const AnisotropicRoughness r = ordered(roughness);
   const double sum = r.alpha_t + r.alpha_b;
   return {std::sqrt(sum / 2), (r.alpha_t - r.alpha_b) / sum, r.azimuth};
+}
+
+AnisotropicRoughness from_substance(const AnisotropyParameters& substance) {
+  const double alpha = alpha_of(substance.roughness);
+  const double kept = std::max(1 - unit(substance.anisotropy), alpha);  // alpha across is at most 1
+  return {alpha, alpha / kept, -substance.rotation};
+}
+
+AnisotropyParameters to_substance(const AnisotropicRoughness& roughness) {
+  const AnisotropicRoughness r = ordered(roughness);
+  return {std::sqrt(r.alpha_b), 1 - r.alpha_b / r.alpha_t, wrap(kPi / 2 - r.azimuth, kPi)};
 }
 
 FuzzParameters from_sheen(const SheenParameters& sheen) {

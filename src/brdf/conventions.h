@@ -13,7 +13,9 @@ namespace sateen {
 //   counter-clockwise from
 //               the tangent (whatever unit the other system stores), in [0, pi) on the way out.
 // The larger alpha lies *along* that direction: a highlight is long across the brushing of a metal, so the
-// direction of brushing is the other one. On the way out the axes are swapped where alpha_t < alpha_b.
+// direction of brushing is the other one; only Substance's angle is its (clockwise). On the way out the axes
+// are swapped where alpha_t < alpha_b. Values out of range, as maps may hold, are clamped; alphas to
+// [kMinimumAlpha, 1].
 
 /// What all of them store: a roughness, a strength and a direction.
 struct AnisotropyParameters {
@@ -22,6 +24,16 @@ struct AnisotropyParameters {
       0;  ///< strength, [0, 1]; Filament's is [-1, 1], negative turns the direction by a quarter
   double rotation = 0;
 };
+
+/// Two roughnesses along and across an axis, as Patry's authoring node ("Samurai Shading", 2020) has them:
+/// alpha = roughness^2. (Gloss is 1 - roughness.)
+struct UvRoughness {
+  double along = 0.5;
+  double across = 0.5;
+  double rotation = 0;  ///< of the axis
+};
+AnisotropicRoughness from_uv(const UvRoughness& uv);
+UvRoughness to_uv(const AnisotropicRoughness& roughness);
 
 /// glTF KHR_materials_anisotropy: alpha_b = roughness^2, alpha_t = mix(alpha_b, 1, strength^2). Exact both
 /// ways, but a surface with alpha_b = 1 has no strength.
@@ -43,6 +55,13 @@ AnisotropyParameters to_blender(const AnisotropicRoughness& roughness);
 /// Filament: alpha_t = roughness^2 (1 + anisotropy), alpha_b = roughness^2 (1 - anisotropy), neither above 1.
 AnisotropicRoughness from_filament(const AnisotropyParameters& filament);
 AnisotropyParameters to_filament(const AnisotropicRoughness& roughness);
+
+/// Substance 3D Painter's metal/rough anisotropy shader: roughness along its angle, roughness / sqrt(1 -
+/// level) across it, so the highlight is long across the angle. `anisotropy` is the level, `rotation` the
+/// angle: here of the *smaller* alpha and *clockwise*, as the shader turns the tangent towards minus the
+/// bitangent.
+AnisotropicRoughness from_substance(const AnisotropyParameters& substance);
+AnisotropyParameters to_substance(const AnisotropicRoughness& roughness);
 
 /// glTF KHR_materials_sheen: the "Charlie" distribution (Estevez and Kulla 2017) over a base.
 struct SheenParameters {

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "sateen/brdf/fuzz.h"
@@ -69,6 +70,8 @@ class LayeredAppearance : public Appearance {
 
   /// A material file with "model": "layered". Throws Error naming file, key and value.
   static std::unique_ptr<Appearance> read(const std::filesystem::path& path);
+  /// The same from JSON text; `path` is what messages call it and where its pictures lie.
+  static std::unique_ptr<LayeredAppearance> parse(const std::string& json, const std::filesystem::path& path);
 
   Vec3 evaluate(const Surface& surface) const override;
   ShaderBinding shader() const override;

@@ -80,8 +80,13 @@ void read_base(JsonObject& json, LayeredMaterial& material) {
 }  // namespace
 
 std::unique_ptr<Appearance> LayeredAppearance::read(const std::filesystem::path& path) {
+  return parse(read_json(path).dump(), path);
+}
+
+std::unique_ptr<LayeredAppearance> LayeredAppearance::parse(const std::string& text,
+                                                            const std::filesystem::path& path) {
   static const std::array<std::string, 2> approximations = {"table", "slides"};
-  const nlohmann::json value = read_json(path);
+  const nlohmann::json value = nlohmann::json::parse(text);
   JsonObject json(value, path.string());
   json.text("model", "layered");
   json.text("name", "");

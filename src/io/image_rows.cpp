@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <vector>
 
+#include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 #include <fmt/format.h>
 
@@ -86,13 +88,35 @@ void ImageRowReader::read(std::span<float> out) {
   next_ += count;
 }
 
+namespace {
+
+/// A file that remembers a write that failed: the PNG writer does not look.
+class CheckedFile : public OIIO::Filesystem::IOFile {
+ public:
+  explicit CheckedFile(const std::string& path) : IOFile(path, Write) {}
+  std::size_t write(const void* bytes, std::size_t size) override {
+    const std::size_t written = IOFile::write(bytes, size);
+    whole_ = whole_ && written == size;
+    return written;
+  }
+  /// Whether everything written so far has reached the file.
+  bool whole() const { return whole_ && m_file != nullptr && std::fflush(m_file) == 0; }
+
+ private:
+  bool whole_ = true;
+};
+
+}  // namespace
+
 struct ImageRowWriter::File {
+  explicit File(const std::string& path) : file(path) {}
+  CheckedFile file;  // outlives `output`, which writes to it
   std::unique_ptr<OIIO::ImageOutput> output;
 };
 
 ImageRowWriter::ImageRowWriter(const std::filesystem::path& file, const std::filesystem::path& name,
                                int width, int height, int channels, RowSamples samples)
-    : name_(name), width_(width), channels_(channels), file_(std::make_unique<File>()) {
+    : name_(name), width_(width), channels_(channels), file_(std::make_unique<File>(file.string())) {
   static const OIIO::TypeDesc kTypes[] = {OIIO::TypeDesc::UINT8, OIIO::TypeDesc::UINT16, OIIO::TypeDesc::HALF,
                                           OIIO::TypeDesc::FLOAT};
   OIIO::ImageSpec spec(width, height, channels, kTypes[static_cast<std::size_t>(samples)]);
@@ -100,7 +124,8 @@ ImageRowWriter::ImageRowWriter(const std::filesystem::path& file, const std::fil
   spec["Software"] = "Sateen";
   file_->output = OIIO::ImageOutput::create(file.string());
   if (!file_->output) fail(name, "unknown picture type");
-  if (!file_->output->open(file.string(), spec))
+  if (!file_->file.opened() || !file_->output->set_ioproxy(&file_->file) ||
+      !file_->output->open(file.string(), spec))
     fail(name, "cannot be written: " + file_->output->geterror());
 }
 
@@ -117,6 +142,7 @@ void ImageRowWriter::write(std::span<const float> rows) {
 
 void ImageRowWriter::close() {
   if (!file_->output->close()) fail(name_, "cannot be written: " + file_->output->geterror());
+  if (!file_->file.whole()) fail(name_, "cannot be written: the disk is full");
 }
 
 }  // namespace sateen

@@ -18,6 +18,7 @@
 #include "sateen/matcap/decomposed_appearance.h"
 #include "sateen/matcap/matcap.h"
 #include "sateen/render/constant.h"
+#include "sateen/texture/mapped_appearance.h"
 
 namespace sateen {
 namespace {
@@ -44,6 +45,7 @@ const Loaders& models() {
   static const Loaders loaders{
       {"constant", Constant::read},
       {"layered", LayeredAppearance::read},
+      {"mapped", MappedAppearance::read},
       {"matcap-decomposition", DecomposedAppearance::read_material},
   };
   return loaders;
@@ -93,9 +95,9 @@ std::unique_ptr<Appearance> load_appearance(const fs::path& path) {
 std::unique_ptr<Appearance> load_appearance(const fs::path& path, const Image& environment) {
   auto appearance = load_appearance(path);
   if (!appearance->set_environment(environment)) {
-    throw Error(
-        fmt::format("{}: its light is baked in; only materials of \"model\": \"layered\" take an environment",
-                    path.string()));
+    throw Error(fmt::format(
+        "{}: its light is baked in; only materials of \"model\": \"layered\" or \"mapped\" take one",
+        path.string()));
   }
   return appearance;
 }

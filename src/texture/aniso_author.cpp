@@ -8,11 +8,11 @@
 
 #include <fmt/format.h>
 
+#include "sateen/brdf/conventions.h"
 #include "sateen/core/error.h"
 #include "sateen/core/parallel.h"
 #include "sateen/io/file.h"
 #include "sateen/io/image_rows.h"
-#include "sateen/texture/anisotropy_styles.h"
 
 namespace sateen {
 namespace {
@@ -129,6 +129,52 @@ void write_maps(InputRows& inputs, std::vector<fs::path> outputs, int bits,
   });
 }
 
+/// What a convention's functions are, for those that store roughness, strength and rotation.
+struct Convention {
+  AnisotropicRoughness (*from)(const AnisotropyParameters&);
+  AnisotropyParameters (*to)(const AnisotropicRoughness&);
+};
+constexpr Convention kGltf{from_gltf, to_gltf};
+constexpr Convention kBlender{from_blender, to_blender};
+constexpr Convention kSubstance{from_substance, to_substance};
+constexpr Convention kMaterialX{from_materialx, to_materialx};
+constexpr Convention kFilament{from_filament, to_filament};
+
+Convention convention_of(AnisotropyStyle style) {
+  switch (style) {
+    case AnisotropyStyle::blender:
+      return kBlender;
+    case AnisotropyStyle::substance:
+      return kSubstance;
+    case AnisotropyStyle::materialx:
+      return kMaterialX;
+    case AnisotropyStyle::filament:
+      return kFilament;
+    case AnisotropyStyle::gltf:
+    case AnisotropyStyle::uv:  // has functions of its own
+      break;
+  }
+  return kGltf;
+}
+
+Convention convention_of(DecodeStyle style) {
+  switch (style) {
+    case DecodeStyle::blender:
+      return kBlender;
+    case DecodeStyle::substance:
+      return kSubstance;
+    case DecodeStyle::materialx:
+      return kMaterialX;
+    case DecodeStyle::filament:
+      return kFilament;
+    case DecodeStyle::gltf:
+    case DecodeStyle::alphas:  // these two are written as they are
+    case DecodeStyle::uv:
+      break;
+  }
+  return kGltf;
+}
+
 /// Encoded values as float3.
 std::array<float, 3> triple(double a, double b, double c) {
   return {static_cast<float>(a), static_cast<float>(b), static_cast<float>(c)};
@@ -154,21 +200,25 @@ MapInput parse_map_input(const std::string& text) {
 }
 
 AnisotropyStyle anisotropy_style_from_name(const std::string& name) {
-  return from_name<AnisotropyStyle, 4>(name,
+  return from_name<AnisotropyStyle, 6>(name,
                                        {{{"uv", AnisotropyStyle::uv},
                                          {"gltf", AnisotropyStyle::gltf},
                                          {"blender", AnisotropyStyle::blender},
-                                         {"substance", AnisotropyStyle::substance}}},
+                                         {"substance", AnisotropyStyle::substance},
+                                         {"materialx", AnisotropyStyle::materialx},
+                                         {"filament", AnisotropyStyle::filament}}},
                                        "style");
 }
 
 DecodeStyle decode_style_from_name(const std::string& name) {
-  return from_name<DecodeStyle, 5>(name,
+  return from_name<DecodeStyle, 7>(name,
                                    {{{"alphas", DecodeStyle::alphas},
                                      {"uv", DecodeStyle::uv},
                                      {"gltf", DecodeStyle::gltf},
                                      {"blender", DecodeStyle::blender},
-                                     {"substance", DecodeStyle::substance}}},
+                                     {"substance", DecodeStyle::substance},
+                                     {"materialx", DecodeStyle::materialx},
+                                     {"filament", DecodeStyle::filament}}},
                                    "style");
 }
 
@@ -184,6 +234,8 @@ void author_anisotropy(const AuthorInputs& in, const fs::path& output, Anisotrop
   const std::size_t direction = rows.add({in.vectors, 0, 0}, gltf_texture ? 3 : vectors ? 2 : 1);
   const double turns_at_one = in.rotation.file.empty() ? 1 : in.turns_at_one;
 
+  const Convention convention = convention_of(in.style);
+
   const auto lobe = [&](std::size_t i) {
     double turns = rows.value(rotation, i) * turns_at_one;
     double amount = rows.value(second, i);
@@ -195,18 +247,10 @@ void author_anisotropy(const AuthorInputs& in, const fs::path& output, Anisotrop
       if (gltf_texture) amount *= rows.value(direction, i, 2);
     }
     const double value = rows.value(first, i);
-    switch (in.style) {
-      case AnisotropyStyle::gltf:
-        return lobe_of(GltfAnisotropy{value, amount, turns});
-      case AnisotropyStyle::blender:
-        return lobe_of(BlenderAnisotropy{value, amount, turns});
-      case AnisotropyStyle::substance:
-        return lobe_of(SubstanceAnisotropy{value, amount, turns});
-      case AnisotropyStyle::uv:
-        break;
-    }
-    return in.gloss ? lobe_of(UvRoughness{1 - value, 1 - amount, turns})
-                    : lobe_of(UvRoughness{value, amount, turns});
+    const double rotation_angle = 2 * kPi * turns;
+    if (!uv) return convention.from({value, amount, rotation_angle});
+    return in.gloss ? from_uv({1 - value, 1 - amount, rotation_angle})
+                    : from_uv({value, amount, rotation_angle});
   };
   write_maps(
       rows, {output}, bits,
@@ -228,6 +272,7 @@ std::vector<fs::path> decode_anisotropy_map(const fs::path& map, AnisotropyEncod
     roughness.replace_filename(output.stem().string() + "_roughness" + output.extension().string());
     outputs.push_back(roughness);
   }
+  const Convention convention = convention_of(style);
   write_maps(
       rows, outputs, bits,
       [&](std::size_t i, std::vector<std::array<float, 3>>& out) {
@@ -238,26 +283,19 @@ std::vector<fs::path> decode_anisotropy_map(const fs::path& map, AnisotropyEncod
             out[0] = triple(lobe.alpha_t, lobe.alpha_b, lobe.azimuth / kPi);
             break;
           case DecodeStyle::uv: {
-            const UvRoughness s = uv_roughness_of(lobe);
-            out[0] = triple(s.along, s.across, 2 * s.rotation);
+            const UvRoughness s = to_uv(lobe);
+            out[0] = triple(s.along, s.across, s.rotation / kPi);
             break;
           }
           case DecodeStyle::gltf: {
-            const GltfAnisotropy s = gltf_of(lobe);
-            const double angle = 2 * kPi * s.rotation;
-            out[0] = triple(std::cos(angle) / 2 + 0.5, std::sin(angle) / 2 + 0.5, s.strength);
+            const AnisotropyParameters s = convention.to(lobe);
+            out[0] = triple(std::cos(s.rotation) / 2 + 0.5, std::sin(s.rotation) / 2 + 0.5, s.anisotropy);
             out[1] = triple(s.roughness, s.roughness, s.roughness);
             break;
           }
-          case DecodeStyle::blender: {
-            const BlenderAnisotropy s = blender_of(lobe);
-            out[0] = triple(s.roughness, s.anisotropic, s.rotation);
-            break;
-          }
-          case DecodeStyle::substance: {
-            const SubstanceAnisotropy s = substance_of(lobe);
-            out[0] = triple(s.roughness, s.level, s.angle);
-            break;
+          default: {
+            const AnisotropyParameters s = convention.to(lobe);
+            out[0] = triple(s.roughness, s.anisotropy, s.rotation / (2 * kPi));
           }
         }
       },

@@ -20,8 +20,8 @@ struct MapInput {
 /// "0.4" is a value; anything else a file, with an optional ":r", ":g", ":b" or ":a" for the channel.
 MapInput parse_map_input(const std::string& text);
 
-/// How the inputs of authoring are meant (anisotropy_styles.h).
-enum class AnisotropyStyle { uv, gltf, blender, substance };
+/// How the inputs of authoring are meant (brdf/conventions.h).
+enum class AnisotropyStyle { uv, gltf, blender, substance, materialx, filament };
 AnisotropyStyle anisotropy_style_from_name(const std::string& name);
 
 /// The inputs of a material. Which are read depends on the style; those given beyond are the caller's
@@ -32,8 +32,8 @@ struct AuthorInputs {
   MapInput across{{}, 0, 0.5};     ///< uv: roughness across it
   bool gloss = false;              ///< uv: both are gloss, 1 - roughness
   MapInput roughness{{}, 0, 0.5};  ///< the other styles
-  MapInput amount;                 ///< glTF strength, Blender's anisotropic, Substance's level
-  MapInput rotation;               ///< all styles: turns in a value, a map of 1 is `turns_at_one`
+  MapInput amount;    ///< glTF strength, Blender's anisotropic, Substance's level, the others' anisotropy
+  MapInput rotation;  ///< all styles: turns in a value, a map of 1 is `turns_at_one`
   double turns_at_one = 1;
   /// A direction map instead of `rotation`: red and green hold x / 2 + 1/2, y / 2 + 1/2 of the axis (y up).
   /// With glTF, blue is the strength, multiplied by `amount`, and `rotation` (a value) turns the vectors.
@@ -53,6 +53,8 @@ enum class DecodeStyle {
   gltf,  ///< the KHR_materials_anisotropy texture: direction x, y, strength; roughness goes to a second file
   blender,    ///< roughness, anisotropic, rotation in turns
   substance,  ///< roughness, level, angle in turns
+  materialx,  ///< roughness, anisotropy, rotation in turns
+  filament,   ///< the same
 };
 DecodeStyle decode_style_from_name(const std::string& name);
 

@@ -34,8 +34,8 @@ std::string name_of(AnisotropyEncoding encoding);
 /// Channels in [0, 1] of a positive matrix (guarded first).
 Vec3 encode_anisotropy(const Mat2& s, AnisotropyEncoding encoding);
 
-/// The matrix of three channels as they are: may be non-positive with `correlation` once channels were
-/// interpolated or compressed. Follow with roughness_from_matrix or guarded.
+/// The matrix of three channels as they are: once they were interpolated or compressed it may be singular, or
+/// larger than 1; with channels outside [0, 1] also negative. Follow with roughness_from_matrix or guarded.
 Mat2 decode_anisotropy(const Vec3& channels, AnisotropyEncoding encoding);
 
 /// The smallest rotation that takes +z to the unit normal n, n.z > -1: columns are the normal-mapped tangent,

@@ -21,10 +21,19 @@ constexpr std::array<std::pair<FilterMethod, const char*>, 4> kNames{
 // Steeper normals would give LEAN infinite slopes: 87 degrees.
 constexpr double kMinZ = 0.05;
 
-/// Upper triangle, row by row, and back.
-void store(const Mat3& s, std::span<float, kMoments> out) {
-  const double v[6] = {s(0, 0), s(0, 1), s(0, 2), s(1, 1), s(1, 2), s(2, 2)};
-  for (std::size_t i = 0; i < 6; ++i) out[i] = static_cast<float>(v[i]);
+/// The upper triangle, row by row, of sroughness_matrix(n, s) + (times - 1) n n^T, without the zeros of its
+/// product.
+void store_sggx(const Vec3& n, const Mat2& s, double times, std::span<float, kMoments> out) {
+  const double k = 1 / std::max(1 + n.z(), 1e-9);
+  const double u[3] = {1 - n.x() * n.x() * k, -n.x() * n.y() * k, -n.x()};
+  const double v[3] = {u[1], 1 - n.y() * n.y() * k, -n.y()};
+  std::size_t at = 0;
+  for (int i = 0; i < 3; ++i) {
+    const double a = s(0, 0) * u[i] + s(0, 1) * v[i];
+    const double b = s(0, 1) * u[i] + s(1, 1) * v[i];
+    const double c = times * n[i];
+    for (int j = i; j < 3; ++j) out[at++] = static_cast<float>(a * u[j] + b * v[j] + c * n[j]);
+  }
 }
 
 Mat3 load(std::span<const float, kMoments> v) {
@@ -65,9 +74,7 @@ void pack_moments(const LobeTexel& texel, const FilterOptions& options, std::spa
   switch (options.method) {
     case FilterMethod::sggx:
     case FilterMethod::sggx_variance: {
-      Mat3 s = sroughness_matrix(n, texel.s);
-      if (options.method == FilterMethod::sggx_variance) s += n * n.transpose();
-      store(s, out);
+      store_sggx(n, texel.s, options.method == FilterMethod::sggx_variance ? 2 : 1, out);
       for (int i = 0; i < 3; ++i) out[static_cast<std::size_t>(6 + i)] = static_cast<float>(n[i]);
       break;
     }

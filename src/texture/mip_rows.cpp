@@ -29,6 +29,21 @@ int wrapped(int i, int size, MipWrap wrap) {
   return std::clamp(i, 0, size - 1);
 }
 
+/// Adds the taps of a row; `Channels` is `channels`, or 0 where the compiler does not know it.
+template <std::size_t Channels>
+void filter_across(const std::vector<MipTaps>& across, const std::vector<float>& row, std::size_t channels,
+                   std::vector<float>& narrow) {
+  const std::size_t count = Channels > 0 ? Channels : channels;
+  float* out = narrow.data();
+  for (const MipTaps& taps : across) {
+    for (const MipTap& tap : taps) {
+      const float* in = row.data() + static_cast<std::size_t>(tap.source) * count;
+      for (std::size_t c = 0; c < count; ++c) out[c] += tap.weight * in[c];
+    }
+    out += count;
+  }
+}
+
 double bessel_i0(double x) {
   double sum = 1;
   double term = 1;
@@ -136,12 +151,11 @@ std::vector<MipRowFilter::Row> MipRowFilter::push(const std::vector<Row>& rows) 
     const Row& row = rows[static_cast<std::size_t>(r)];
     std::vector<float>& narrow = narrow_[static_cast<std::size_t>(row.y)];
     narrow.assign(across_.size() * channels, 0);
-    for (std::size_t x = 0; x < across_.size(); ++x) {
-      float* out = narrow.data() + x * channels;
-      for (const MipTap& tap : across_[x]) {
-        const float* in = row.values.data() + static_cast<std::size_t>(tap.source) * channels;
-        for (std::size_t c = 0; c < channels; ++c) out[c] += tap.weight * in[c];
-      }
+    // The number of moments of a lobe, known to the compiler, is worth half the time.
+    if (channels == 9) {
+      filter_across<9>(across_, row.values, channels, narrow);
+    } else {
+      filter_across<0>(across_, row.values, channels, narrow);
     }
   });
 

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: MIT
+#include <cmath>
 #include <filesystem>
+#include <fstream>
+#include <limits>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -109,6 +112,114 @@ TEST(MapsAniso, MendsBlackNormalsWithAWarning) {
   EXPECT_THAT(result.output, HasSubstr("64 normals"));
   const Image normal = read_data(folder / "a_normal_0.png");
   EXPECT_NEAR(normal.at(3, 3, 2), 1, 1e-4);
+}
+
+std::size_t files_in(const fs::path& folder) {
+  return static_cast<std::size_t>(std::distance(fs::directory_iterator(folder), fs::directory_iterator()));
+}
+
+/// Filters `normals` with constant lobes; the picture of level 1.
+Image level_1_of(const fs::path& normals, const test::TemporaryFolder& folder) {
+  const auto result = run_program("maps aniso filter --normals " + normals.string() + " --constant 0.5 -o " +
+                                  (folder / "out.png").string());
+  EXPECT_EQ(result.exit_code, 0) << result.output;
+  return read_data(folder / "out_normal_1.png");
+}
+
+TEST(MapsAniso, SizesThatAreNotSquareNorPowersOfTwo) {
+  for (const auto& [w, h] : {std::pair{37, 11}, std::pair{300, 7}, std::pair{1, 9}, std::pair{64, 1}}) {
+    const test::TemporaryFolder folder;
+    write_data(folder / "n.png", Image(w, h, 3, 0.5f));
+    for (const char* name : {"a.png", "a.ktx2"}) {
+      const auto result = run_program("maps aniso filter --normals " + (folder / "n.png").string() +
+                                      " --constant 0.5 0.2 --kernel kaiser -o " + (folder / name).string());
+      ASSERT_EQ(result.exit_code, 0) << result.output;
+    }
+    int levels = 1;
+    for (int size = std::max(w, h); size > 1; size /= 2) ++levels;
+    EXPECT_EQ(read_ktx2(folder / "a_aniso.ktx2").levels.size(), static_cast<std::size_t>(levels));
+    EXPECT_TRUE(fs::exists(folder / ("a_normal_" + std::to_string(levels - 1) + ".png")));
+  }
+}
+
+TEST(MapsAniso, SixteenBitsAndAMissingBlueChannelAreRead) {
+  // A slope that 8 bits cannot say, as 16-bit RGB, as x and y alone, and with blue left at 0.
+  const float x = 0.5f + 100.3f / 65535;
+  const Vec3f n(2 * x - 1, 0.2f, std::sqrt(1 - 0.04f - (2 * x - 1) * (2 * x - 1)));
+  for (int kind = 0; kind < 3; ++kind) {
+    const test::TemporaryFolder folder;
+    Image image(8, 8, kind == 1 ? 2 : 3);
+    for (int i = 0; i < 64; ++i) {
+      for (int c = 0; c < image.channels; ++c) image.at(i % 8, i / 8, c) = n[c] / 2 + 0.5f;
+      if (kind == 2) image.at(i % 8, i / 8, 2) = 0;
+    }
+    // PNG has no two-channel colour that every tool reads alike; EXR does.
+    const fs::path file = folder / (kind == 1 ? "n.exr" : "n.png");
+    write_data(file, image);
+    const Image level = level_1_of(file, folder);
+    for (int c = 0; c < 3; ++c) EXPECT_NEAR(level.at(1, 2, c), n[c] / 2 + 0.5f, 3e-5f) << kind;
+  }
+}
+
+TEST(MapsAniso, RoughnessZeroAndOneAreLobes) {
+  const test::TemporaryFolder folder;
+  Image rough(8, 8, 1);
+  for (int i = 0; i < 64; ++i) rough.at(i % 8, i / 8, 0) = i % 8 < 4 ? 0.0f : 1.0f;
+  write_data(folder / "r.png", rough);
+  ASSERT_EQ(run_program("maps aniso filter --roughness " + (folder / "r.png").string() + " -o " +
+                        (folder / "a.exr").string())
+                .exit_code,
+            0);
+  ASSERT_EQ(run_program("maps aniso decode " + (folder / "a_aniso_0.exr").string() + " -o " +
+                        (folder / "d.exr").string())
+                .exit_code,
+            0);
+  const Image alphas = read_data(folder / "d.exr");
+  EXPECT_NEAR(alphas.at(1, 1, 0), 1e-3, 1e-5);
+  EXPECT_NEAR(alphas.at(6, 6, 0), 1, 1e-3);
+  for (const float v : alphas.data) EXPECT_TRUE(std::isfinite(v));
+}
+
+TEST(MapsAniso, DamagedFilesAreNamedAndNothingIsLeft) {
+  const test::TemporaryFolder folder;
+  Image bad(64, 64, 3, 0.5f);
+  bad.at(5, 40, 1) = std::numeric_limits<float>::quiet_NaN();
+  write_data(folder / "nan.exr", bad);
+  Image noise(64, 64, 3);
+  for (std::size_t i = 0; i < noise.data.size(); ++i)
+    noise.data[i] = static_cast<float>(i * 7919 % 251) / 251;
+  write_data(folder / "cut.png", noise);
+  fs::resize_file(folder / "cut.png", fs::file_size(folder / "cut.png") / 2);
+  std::ofstream(folder / "empty.png");
+  const std::size_t before = files_in(folder.path());
+  for (const char* name : {"nan.exr", "cut.png", "empty.png"}) {
+    for (const char* out : {"o.png", "o.exr", "o.ktx2"}) {
+      const auto result = run_program("maps aniso filter --normals " + (folder / name).string() +
+                                      " --constant 0.5 -o " + (folder / out).string());
+      EXPECT_EQ(result.exit_code, 1) << name << result.output;
+      EXPECT_THAT(result.output, HasSubstr(name));
+    }
+    const auto result = run_program("maps aniso author --roughness-u " + (folder / name).string() +
+                                    ":g --roughness-v 0.5 -o " + (folder / "o.png").string());
+    EXPECT_EQ(result.exit_code, 1) << name << result.output;
+    EXPECT_THAT(result.output, HasSubstr(name));
+  }
+  EXPECT_EQ(files_in(folder.path()), before);
+}
+
+TEST(MapsAniso, AFullDiskLeavesNothing) {
+  // A limit on the size of files stands for the disk: writing fails in the middle.
+  const test::TemporaryFolder folder;
+  const fs::path out = folder / "out";
+  fs::create_directory(out);
+  for (const std::string& name : {"o.png", "o.exr", "o.ktx2"}) {
+    const auto result = run_program(
+        "maps aniso filter --normals " + kWeave + " --constant 0.5 0.25 --zstd 0 -o " + (out / name).string(),
+        "trap '' XFSZ; ulimit -f 24;");
+    EXPECT_EQ(result.exit_code, 1) << name << result.output;
+    EXPECT_THAT(result.output, HasSubstr((out / "o").string()));
+    EXPECT_EQ(files_in(out), 0u) << name;
+  }
 }
 
 }  // namespace

@@ -20,7 +20,8 @@ struct Convention {
 const Convention kConventions[] = {{from_gltf, to_gltf, 1e9},
                                    {from_materialx, to_materialx, 49},
                                    {from_blender, to_blender, 9.9},
-                                   {from_filament, to_filament, 1e9}};
+                                   {from_filament, to_filament, 1e9},
+                                   {from_substance, to_substance, 1e9}};
 
 TEST(Conventions, EveryRoughnessSurvivesTheRoundTrip) {
   std::mt19937 random(1);
@@ -59,14 +60,53 @@ TEST(Conventions, KnownValues) {
   EXPECT_NEAR(from_filament({0.5, 0.6, 0}).alpha_t, 0.4, 1e-12);
   EXPECT_NEAR(from_filament({0.5, -0.6, 0}).alpha_t, 0.1, 1e-12);
   EXPECT_NEAR(from_filament({0.5, 1, 0}).alpha_b, kMinimumAlpha, 1e-12);
+  // Substance's shader: roughness along the angle, roughness / sqrt(1 - level) across.
+  EXPECT_NEAR(from_substance({0.3, 0.75, 0}).alpha_t, 0.09, 1e-12);
+  EXPECT_NEAR(from_substance({0.3, 0.75, 0}).alpha_b, std::pow(0.3 / std::sqrt(0.25), 2), 1e-12);
+  EXPECT_NEAR(from_substance({0.9, 1, 0}).alpha_b, 1, 1e-12);
+  EXPECT_NEAR(from_substance({0.3, 0.75, 0.4}).azimuth, -0.4, 1e-12) << "clockwise";
 }
 
 TEST(Conventions, TheLargerAlphaLiesAlongTheRotation) {
   for (const Convention& convention : kConventions) {
     const AnisotropyParameters out = convention.to({0.1, 0.4, 0});
-    EXPECT_NEAR(out.rotation, kPi / 2, 1e-12);
+    // Substance's angle is that of the smaller alpha.
+    EXPECT_NEAR(out.rotation, convention.from == from_substance ? 0 : kPi / 2, 1e-12);
     const Mat2 matrix = roughness_matrix(convention.from(out));
     EXPECT_GT(matrix(1, 1), matrix(0, 0));
+  }
+}
+
+TEST(Conventions, RoughnessAlongAndAcrossSurvivesTheRoundTrip) {
+  std::mt19937 random(2);
+  for (int i = 0; i < 200; ++i) {
+    const AnisotropicRoughness r{random_in(random, 0.002, 1), random_in(random, 0.002, 1),
+                                 random_in(random, -3, 6)};
+    const UvRoughness out = to_uv(r);
+    EXPECT_GE(out.along, out.across);
+    EXPECT_LT((roughness_matrix(from_uv(out)) - roughness_matrix(r)).norm(), 1e-9);
+  }
+  EXPECT_NEAR(from_uv({0.6, 0.3, 0}).alpha_t, 0.36, 1e-12);
+  EXPECT_NEAR(from_uv({0.6, 0.3, 0}).alpha_b, 0.09, 1e-12);
+}
+
+TEST(Conventions, ValuesOutOfRangeAreClamped) {
+  const auto fits = [](const AnisotropicRoughness& r) {
+    return std::min(r.alpha_t, r.alpha_b) >= kMinimumAlpha && std::max(r.alpha_t, r.alpha_b) <= 1;
+  };
+  for (const double roughness : {0.0, 1.0, -1.0, 2.0}) {
+    EXPECT_TRUE(fits(from_uv({roughness, 0.5, 0})));
+    for (const Convention& convention : kConventions) {
+      for (const double strength : {-2.0, 0.0, 0.5, 1.0, 3.0}) {
+        EXPECT_TRUE(fits(convention.from({roughness, strength, 0}))) << roughness << " " << strength;
+      }
+    }
+  }
+  for (const Convention& convention : kConventions) {
+    for (const double alpha : {0.0, 1.0, 2.0}) {
+      const AnisotropyParameters out = convention.to({alpha, alpha, 0});
+      EXPECT_TRUE(std::isfinite(out.anisotropy) && std::isfinite(out.roughness));
+    }
   }
 }
 

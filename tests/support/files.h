@@ -44,10 +44,10 @@ struct ProgramResult {
   std::string output;  ///< stdout and stderr together
 };
 
-/// Runs the command-line program through the shell.
-inline ProgramResult run_program(const std::string& arguments) {
+/// Runs the command-line program through the shell, after the shell commands `before`.
+inline ProgramResult run_program(const std::string& arguments, const std::string& before = "") {
   ProgramResult result;
-  FILE* pipe = popen(fmt::format("{} {} 2>&1", SATEEN_PROGRAM, arguments).c_str(), "r");
+  FILE* pipe = popen(fmt::format("{} {} {} 2>&1", before, SATEEN_PROGRAM, arguments).c_str(), "r");
   std::array<char, 4096> buffer{};
   while (const std::size_t n = std::fread(buffer.data(), 1, buffer.size(), pipe))
     result.output.append(buffer.data(), n);

@@ -6,8 +6,6 @@
 
 #include <gtest/gtest.h>
 
-#include "sateen/texture/anisotropy_styles.h"
-
 namespace sateen {
 namespace {
 
@@ -154,47 +152,6 @@ TEST(Sggx, MeetingEigenvaluesGiveTheMeanNormal) {
   const Vec3 mean = (0.48 * left + 0.52 * right).normalized();
   EXPECT_LT((principal_axis(s, mean) - mean).norm(), 1e-6);
   EXPECT_GT(degrees(std::acos(principal_axis_by_power_iteration(s, 100).dot(mean))), 60);
-}
-
-TEST(Styles, RoundTrip) {
-  Random random;
-  for (int i = 0; i < 300; ++i) {
-    const double t = random(0.05, 1);
-    const AnisotropicRoughness lobe{t, t * random(0.12, 0.99), random(0, kPi)};
-    const Mat2 s = roughness_matrix(lobe);
-    EXPECT_NEAR((roughness_matrix(lobe_of(uv_roughness_of(lobe))) - s).norm(), 0, 1e-9);
-    EXPECT_NEAR((roughness_matrix(lobe_of(gltf_of(lobe))) - s).norm(), 0, 1e-9);
-    EXPECT_NEAR((roughness_matrix(lobe_of(blender_of(lobe))) - s).norm(), 0, 1e-9);
-    EXPECT_NEAR((roughness_matrix(lobe_of(substance_of(lobe))) - s).norm(), 0, 1e-9);
-  }
-}
-
-TEST(Styles, MeanWhatTheirProgramsSay) {
-  // glTF: full strength is a line along the rotation.
-  const AnisotropicRoughness gltf = lobe_of(GltfAnisotropy{0.5, 1, 0.25});
-  EXPECT_NEAR(gltf.alpha_t, 1, 1e-12);
-  EXPECT_NEAR(gltf.alpha_b, 0.25, 1e-12);
-  EXPECT_NEAR(gltf.azimuth, kPi / 2, 1e-12);
-  // Blender: at 1 the alphas are 10 : 1 around roughness^2.
-  const AnisotropicRoughness blender = lobe_of(BlenderAnisotropy{0.4, 1, 0});
-  EXPECT_NEAR(blender.alpha_t / blender.alpha_b, 10, 1e-9);
-  EXPECT_NEAR(std::sqrt(blender.alpha_t * blender.alpha_b), 0.16, 1e-12);
-  // Substance: the level widens the lobe across the angle.
-  const AnisotropicRoughness substance = lobe_of(SubstanceAnisotropy{0.3, 0.75, 0});
-  EXPECT_NEAR(substance.alpha_t, 0.09, 1e-12);
-  EXPECT_NEAR(substance.alpha_b, 0.36, 1e-12);
-}
-
-TEST(Styles, RoughnessZeroAndOneAreLobes) {
-  for (const double r : {0.0, 1.0, -1.0, 2.0}) {
-    for (const AnisotropicRoughness& lobe :
-         {lobe_of(UvRoughness{r, r, 0}), lobe_of(GltfAnisotropy{r, 1, 0}),
-          lobe_of(BlenderAnisotropy{r, 1, 0}), lobe_of(SubstanceAnisotropy{r, 1, 0})}) {
-      const AnisotropicRoughness back = roughness_from_matrix(roughness_matrix(lobe));
-      EXPECT_GE(back.alpha_b, kMinimumAlpha * 0.999);
-      EXPECT_LE(back.alpha_t, 1);
-    }
-  }
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "sateen/texture/lobe_chain.h"
 
+#include <atomic>
 #include <map>
 
 #include <gtest/gtest.h>
@@ -208,6 +209,42 @@ TEST(LobeChain, DoesNotDependOnTheNumberOfThreads) {
         EXPECT_EQ(row[x].s, many.at(level, static_cast<int>(x), y).s);
         EXPECT_EQ(row[x].normal, many.at(level, static_cast<int>(x), y).normal);
       }
+    }
+  }
+}
+
+/// Counts how many rows are read before those that they make are given.
+class Ahead : public LobeSink {
+ public:
+  explicit Ahead(const std::atomic<int>& rows_read) : read_(rows_read) {}
+  void write(int level, std::span<const LobeRow> rows) override {
+    // Rows of the file that the last of these rows covers; of the small levels one row is many.
+    const int covered = (rows.back().y + 1) << level;
+    most = std::max(most, read_ - covered - (8 << level));
+  }
+  int most = 0;
+
+ private:
+  const std::atomic<int>& read_;
+};
+
+TEST(LobeChain, HoldsAFewStripsWhateverTheHeight) {
+  // A picture as wide as 16 K: 16 rows a strip, and one is read while another is filtered.
+  for (const MipKernel kernel : {MipKernel::box, MipKernel::kaiser}) {
+    for (const int height : {96, 192}) {
+      int texels = 0;
+      std::atomic<int> rows = 0;
+      const int width = 16384;
+      Texels source(width, height, [&](int, int) {
+        rows = ++texels / width;
+        return LobeTexel{};
+      });
+      Ahead sink(rows);
+      ChainOptions options = options_for(FilterMethod::sggx_variance, kernel);
+      options.wrap_v = MipWrap::clamp;
+      options.levels = 4;
+      filter_lobe_chain(source, sink, options);
+      EXPECT_LE(sink.most, 3 * 16) << height;
     }
   }
 }

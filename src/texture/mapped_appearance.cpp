@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: MIT
+#include "sateen/texture/mapped_appearance.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+
+#include "sateen/core/parallel.h"
+
+namespace sateen {
+namespace {
+
+constexpr double kLowestView = 1e-3;  // as layered.cpp lifts views behind the rim
+
+/// Reads a repeating picture bilinearly where uv says; v runs up. `out` has no more entries than channels.
+void sample_repeating(const Image& image, const Vec2& uv, std::span<double> out) {
+  const double x = (uv.x() - std::floor(uv.x())) * image.width - 0.5;
+  const double y = (1 - (uv.y() - std::floor(uv.y()))) * image.height - 0.5;
+  const auto column = static_cast<int>(std::floor(x));
+  const auto row = static_cast<int>(std::floor(y));
+  std::ranges::fill(out, 0.0);
+  for (int j = 0; j < 2; ++j) {
+    for (int i = 0; i < 2; ++i) {
+      const double weight = (i == 0 ? 1 - (x - column) : x - column) * (j == 0 ? 1 - (y - row) : y - row);
+      const auto texel =
+          image.pixel((column + i + image.width) % image.width, (row + j + image.height) % image.height);
+      for (std::size_t c = 0; c < out.size(); ++c) out[c] += weight * texel[c];
+    }
+  }
+}
+
+/// All levels as halves, rows from the bottom; missing channels are 0, alpha 1.
+std::shared_ptr<const TextureData> texture_of(const std::vector<Image>& levels) {
+  auto texture = std::make_shared<TextureData>();
+  texture->format = TextureData::Format::rgba16f;
+  texture->width = levels[0].width;
+  texture->height = levels[0].height;
+  texture->wrap_u = texture->wrap_v = TextureData::Wrap::repeat;
+  for (const Image& level : levels) {
+    std::vector<Half> texels(
+        static_cast<std::size_t>(level.width) * static_cast<std::size_t>(level.height) * 4, Half(0));
+    std::size_t at = 0;
+    for (int y = level.height - 1; y >= 0; --y) {
+      for (int x = 0; x < level.width; ++x, at += 4) {
+        for (int c = 0; c < std::min(level.channels, 3); ++c) {
+          texels[at + static_cast<std::size_t>(c)] = Half(level.at(x, y, c));
+        }
+        texels[at + 3] = Half(1);
+      }
+    }
+    std::vector<std::byte>& bytes = texture->levels.emplace_back(texels.size() * sizeof(Half));
+    std::memcpy(bytes.data(), texels.data(), bytes.size());
+  }
+  return texture;
+}
+
+/// What the GPU will read.
+void round_to_halves(std::vector<Image>& levels) {
+  for (Image& level : levels) {
+    for (float& v : level.data) v = static_cast<float>(Half(v));
+  }
+}
+
+}  // namespace
+
+GgxAlbedoTable::GgxAlbedoTable() : table_(kSize, kSize, 2) {
+  parallel_for(kSize, [&](int y) {
+    const double root = static_cast<double>(y) / (kSize - 1);
+    const double alpha = std::max(root * root, kMinimumAlpha);
+    for (int x = 0; x < kSize; ++x) {
+      const double cosine = std::max(static_cast<double>(x) / (kSize - 1), kLowestView);
+      const GgxAlbedo albedo = ggx_albedo({alpha, alpha, 0}, {std::sqrt(1 - cosine * cosine), 0, cosine}, 24);
+      table_.at(x, y, 0) = static_cast<float>(albedo.scale);
+      table_.at(x, y, 1) = static_cast<float>(albedo.bias);
+    }
+  });
+}
+
+GgxAlbedo GgxAlbedoTable::operator()(double alpha_t, double alpha_b, const Vec3& view) const {
+  const double met =
+      std::sqrt(view.x() * view.x() * alpha_t * alpha_t + view.y() * view.y() * alpha_b * alpha_b +
+                view.z() * view.z() * alpha_t * alpha_b);
+  std::array<double, 2> read{};
+  sample_bilinear(table_, view.z() * (kSize - 1) + 0.5, std::sqrt(met) * (kSize - 1) + 0.5, read);
+  return {read[0], read[1]};
+}
+
+std::shared_ptr<const TextureData> GgxAlbedoTable::texture() const {
+  auto texture = std::make_shared<TextureData>();
+  texture->format = TextureData::Format::rg32f;
+  texture->width = texture->height = kSize;
+  std::vector<std::byte>& bytes = texture->levels.emplace_back(table_.data.size() * sizeof(float));
+  std::memcpy(bytes.data(), table_.data.data(), bytes.size());
+  return texture;
+}
+
+MappedAppearance::MappedAppearance(Maps maps, std::unique_ptr<LayeredAppearance> base)
+    : maps_(std::move(maps)), base_(std::move(base)) {
+  round_to_halves(maps_.mips.normals);
+  round_to_halves(maps_.mips.anisotropy);
+}
+
+Vec3 MappedAppearance::evaluate(const Surface& surface) const {
+  const Vec2 uv = surface.uv.cwiseProduct(maps_.repeat);
+  std::array<double, 2> xy{};
+  std::array<double, 3> channels{};
+  sample_repeating(maps_.mips.normals[0], uv, xy);
+  sample_repeating(maps_.mips.anisotropy[0], uv, channels);
+  Vec3 n(2 * xy[0] - 1, 2 * xy[1] - 1, 0);
+  n.z() = std::sqrt(std::max(1 - n.squaredNorm(), 0.0));
+  if (maps_.mips.green_down) n.y() = -n.y();
+  const AnisotropicRoughness lobe =
+      roughness_from_matrix(decode_anisotropy({channels[0], channels[1], channels[2]}, maps_.mips.encoding));
+
+  Mat3 surface_frame;
+  surface_frame << surface.tangent, surface.bitangent_sign * surface.normal.cross(surface.tangent),
+      surface.normal;
+  const Mat3 turned = surface_frame * normal_frame(n);
+  Surface mapped = surface;
+  mapped.normal = turned.col(2);
+  mapped.tangent = turned.col(0);
+  Vec3 sum = base_->evaluate(mapped);
+
+  const Mat3 frame = turned * Eigen::AngleAxisd(lobe.azimuth, Vec3::UnitZ()).toRotationMatrix();
+  const AnisotropicRoughness roughness{lobe.alpha_t, lobe.alpha_b, 0};
+  Vec3 view = frame.transpose() * surface.view;
+  if (view.z() < kLowestView) view = Vec3(view.x(), view.y(), kLowestView).normalized();
+  const Lighting& lighting = base_->lighting();
+  for (const PunctualLight& lamp : lighting.lights) {
+    const ArrivingLight arriving = arriving_light(lamp, surface.position);
+    const Vec3 light = frame.transpose() * arriving.direction;
+    if (light.z() > 0) {
+      sum += arriving.irradiance.cwiseProduct(ggx_brdf(roughness, maps_.f0, light, view)) * light.z();
+    }
+  }
+  if (!lighting.environment) return sum;
+
+  // As LayeredAppearance: half vectors at the quantiles of the slopes that the narrow lobe lacks along x.
+  const int count = maps_.lobe_samples;
+  const double narrow = lobe.alpha_b * lobe.alpha_b;
+  const double extra = lobe.alpha_t * lobe.alpha_t - narrow;
+  const double blur = std::sqrt(narrow + extra / (count * count));
+  const double view_masking = 1 + ggx_lambda(roughness, view);
+  Vec3 seen = Vec3::Zero();
+  double total = 0;
+  for (int i = 0; i < count; ++i) {
+    const double c = (2 * i + 1.0) / count - 1;
+    const Vec3 half = Vec3(std::sqrt(extra) * c / std::sqrt(1 - c * c), 0, 1).normalized();
+    const double cosine = view.dot(half);
+    const Vec3 light = 2 * cosine * half - view;
+    if (cosine <= 0 || light.z() <= 1e-4) continue;
+    const double weight = cosine / half.z() * view_masking / (view_masking + ggx_lambda(roughness, light));
+    seen += weight * lighting.environment->radiance(frame * light, blur);
+    total += weight;
+  }
+  if (!(total > 0)) return sum;
+  const GgxAlbedo albedo = albedo_(lobe.alpha_t, lobe.alpha_b, view);
+  return sum + surface.occlusion *
+                   (seen / total).cwiseProduct(maps_.f0 * albedo.scale + Vec3::Constant(albedo.bias));
+}
+
+ShaderBinding MappedAppearance::shader() const {
+  ShaderBinding binding = base_->shader();
+  binding.files.emplace_back("mapped.glsl");
+  binding.function = "mapped";
+  const auto set = [&](const char* name, UniformValue value) {
+    binding.uniforms.push_back({name, std::move(value)});
+  };
+  set("mapped_root", maps_.mips.encoding == AnisotropyEncoding::root ? 1 : 0);
+  set("mapped_green", maps_.mips.green_down ? -1.0f : 1.0f);
+  set("mapped_repeat", Vec2f(maps_.repeat.cast<float>()));
+  set("mapped_f0", Vec3f(maps_.f0.cast<float>()));
+  set("mapped_lobe_samples", base_->lighting().environment ? maps_.lobe_samples : 0);
+  binding.textures.push_back({"mapped_normals", texture_of(maps_.mips.normals)});
+  binding.textures.push_back({"mapped_lobes", texture_of(maps_.mips.anisotropy)});
+  binding.textures.push_back({"mapped_albedo", albedo_.texture()});
+  return binding;
+}
+
+}  // namespace sateen

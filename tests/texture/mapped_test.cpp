@@ -1,0 +1,261 @@
+// SPDX-License-Identifier: MIT
+#include <fstream>
+#include <random>
+
+#include <gmock/gmock.h>
+
+#include "sateen/core/error.h"
+#include "sateen/io/image.h"
+#include "sateen/render/registry.h"
+#include "sateen/texture/lobe_files.h"
+#include "sateen/texture/mapped_appearance.h"
+#include "support/files.h"
+#include "support/rendering.h"
+#include "support/shapes.h"
+
+namespace sateen {
+namespace {
+
+using testing::HasSubstr;
+
+constexpr double kTolerance = 5e-3;
+
+Lighting lamps() {
+  Lighting lighting;
+  PunctualLight key;
+  key.direction = Vec3(-0.3, 0.4, 0.8).normalized();
+  PunctualLight point;
+  point.kind = PunctualLight::Kind::point;
+  point.position = {1, 0.5, -2};
+  point.colour = {2, 3, 4};
+  lighting.lights = {key, point};
+  return lighting;
+}
+
+Lighting surroundings() {
+  Image sky(64, 32, 3);
+  for (int y = 0; y < sky.height; ++y) {
+    for (int x = 0; x < sky.width; ++x) {
+      sky.set_rgb(
+          x, y,
+          Vec3f(0.6f + 0.4f * std::sin(0.2f * static_cast<float>(x)), 0.5f, 1 - static_cast<float>(y) / 32));
+    }
+  }
+  Lighting lighting = lamps();
+  lighting.set_environment(sky);
+  return lighting;
+}
+
+std::shared_ptr<const MappedAppearance> mapped(MappedAppearance::Maps maps, Lighting lighting) {
+  LayeredMaterial base;
+  base.base_colour = {0.2, 0.15, 0.1};
+  return std::make_shared<const MappedAppearance>(
+      std::move(maps), std::make_unique<LayeredAppearance>(std::move(base), std::move(lighting)));
+}
+
+/// Unrelated lobes and normals side by side; with `any` the channels are no lobes at all, as damaged maps
+/// hold them.
+MappedAppearance::Maps adversarial(AnisotropyEncoding encoding, bool any) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> value(0, 1);
+  const auto between = [&](double low, double high) { return low + (high - low) * value(random); };
+  MappedAppearance::Maps maps;
+  maps.f0 = {0.5, 0.4, 0.3};
+  maps.mips.encoding = encoding;
+  Image normals(5, 4, 2);
+  Image lobes(5, 4, 3);
+  for (int y = 0; y < 4; ++y) {
+    for (int x = 0; x < 5; ++x) {
+      const double a = between(0, 2 * kPi);
+      // Thin lobes across each other make the interpolated correlation non-positive or larger than 1.
+      const Vec3 c = any ? Vec3(value(random), value(random), value(random))
+                         : encode_anisotropy(roughness_matrix({between(0.5, 1), 0.15, a}), encoding);
+      for (int k = 0; k < 2; ++k) normals.at(x, y, k) = static_cast<float>(between(0.3, 0.7));
+      for (int k = 0; k < 3; ++k) lobes.at(x, y, k) = static_cast<float>(c[k]);
+    }
+  }
+  maps.mips.normals = {normals};
+  maps.mips.anisotropy = {lobes};
+  return maps;
+}
+
+TEST(MappedOnGpu, EqualsTheEvaluatorBetweenUnrelatedTexels) {
+  const auto maps = [] { return adversarial(AnisotropyEncoding::root, false); };
+  test::expect_matches_evaluator(test::plane(), mapped(maps(), surroundings()), kTolerance);
+  test::expect_matches_evaluator(test::torus(), mapped(maps(), lamps()), kTolerance);
+}
+
+TEST(MappedOnGpu, BadMatricesAreGuardedAsInTheEvaluator) {
+  // Thin lobes across each other, then channels that are no lobes at all: what lies between them is singular
+  // or larger than 1. At the smallest alphas the highlight is a matter of the last digits, hence the share.
+  for (const auto encoding : {AnisotropyEncoding::root, AnisotropyEncoding::correlation}) {
+    for (const bool any : {false, true}) {
+      const Scene scene = test::scene_of(test::plane(), mapped(adversarial(encoding, any), surroundings()));
+      const Frame frame = test::render(scene, {});
+      const auto difference = test::against_evaluator(frame, scene.materials, 0.05);
+      EXPECT_GT(difference.pixels, 1000);
+      EXPECT_LT(difference.failing_share(), 0.01) << name_of(encoding) << any;
+      for (const float v : frame.colour.data) ASSERT_TRUE(std::isfinite(v));
+    }
+  }
+}
+
+TEST(Mapped, ChannelsInRangeAreNeverNegativeButMayBeSingularOrTooLarge) {
+  // The determinant of `correlation` is Sxx Syy (1 - c^2) with |c| <= 1, and `root` is a square: no
+  // interpolation and no block compression makes either negative. The guard is for the other two cases.
+  std::mt19937 random(8);
+  std::uniform_real_distribution<double> value(0, 1);
+  for (const auto encoding : {AnisotropyEncoding::root, AnisotropyEncoding::correlation}) {
+    double least = 1;
+    double largest = 0;
+    for (int i = 0; i < 5000; ++i) {
+      Vec3 c(value(random), value(random), value(random));
+      if (i % 10 == 0) c = Vec3(1, i % 20 == 0 ? 1 : 0, 1);
+      const Mat2 s = decode_anisotropy(c, encoding);
+      const double mean = s.trace() / 2;
+      const double radius = std::hypot((s(0, 0) - s(1, 1)) / 2, s(0, 1));
+      ASSERT_GE(mean - radius, -1e-12);
+      least = std::min(least, mean - radius);
+      largest = std::max(largest, mean + radius);
+      const AnisotropicRoughness lobe = roughness_from_matrix(s);
+      ASSERT_GE(lobe.alpha_b, kMinimumAlpha);
+      ASSERT_LE(lobe.alpha_t, 1);
+    }
+    EXPECT_LT(least, 1e-6);
+    EXPECT_GT(largest, 1.5);
+  }
+}
+
+TEST(Mapped, FlatMapsUnderLampsAreTheLayeredMaterial) {
+  MappedAppearance::Maps maps;
+  maps.mips.normals = {Image(2, 2, 2, 0.5f)};
+  const Vec3 c = encode_anisotropy(roughness_matrix({0.5, 0.2, 0.7}), AnisotropyEncoding::root);
+  Image lobes(2, 2, 3);
+  for (int i = 0; i < 12; ++i) lobes.data[static_cast<std::size_t>(i)] = static_cast<float>(c[i % 3]);
+  maps.mips.anisotropy = {lobes};
+  maps.f0 = {0.5, 0.4, 0.3};
+  LayeredMaterial material;
+  material.base_colour = {0.2, 0.15, 0.1};
+  material.specular = GgxParameters{{0.5, 0.2, 0.7}, maps.f0, false};
+  const auto a = mapped(maps, lamps());
+  const LayeredAppearance b(material, lamps());
+  for (int i = 0; i < 40; ++i) {
+    Surface surface;
+    surface.view = Vec3(0.9 * std::cos(i), 0.9 * std::sin(2.0 * i), 0.6).normalized();
+    surface.position = -2 * surface.view;
+    const Vec3 expected = b.evaluate(surface);
+    EXPECT_LT((a->evaluate(surface) - expected).norm(), 2e-3 * expected.norm());
+  }
+}
+
+TEST(Mapped, HighlightsRunAlongTheLargerAlpha) {
+  // Axis at 30 degrees from U towards V: the highlight under the eye's own lamp is long that way on a square.
+  MappedAppearance::Maps maps;
+  maps.mips.normals = {Image(1, 1, 2, 0.5f)};
+  const Vec3 c = encode_anisotropy(roughness_matrix({0.5, 0.1, radians(30)}), AnisotropyEncoding::root);
+  Image lobe(1, 1, 3);
+  for (int k = 0; k < 3; ++k) lobe.at(0, 0, k) = static_cast<float>(c[k]);
+  maps.mips.anisotropy = {lobe};
+  Lighting lighting;
+  PunctualLight lamp;
+  lamp.direction = Vec3::UnitZ();
+  lighting.lights = {lamp};
+  const Frame frame = test::render(test::scene_of(test::plane(), mapped(maps, lighting)), {});
+  Mat2 second = Mat2::Zero();
+  const double background = frame.colour.rgb(8, 8).y();
+  for (int y = 0; y < 128; ++y) {
+    for (int x = 0; x < 128; ++x) {
+      const Vec2 d(x - 63.5, 63.5 - y);
+      if (d.norm() > 50) continue;
+      second += std::max(frame.colour.rgb(x, y).y() - background, 0.0) * d * d.transpose();
+    }
+  }
+  EXPECT_NEAR(degrees(0.5 * std::atan2(2 * second(0, 1), second(0, 0) - second(1, 1))), 30, 2);
+}
+
+/// A weave of 32 x 32 texels, threads of 8.
+class Weave : public LobeSource {
+ public:
+  int width() const override { return 32; }
+  int height() const override { return 32; }
+  void read(std::span<LobeTexel> out) override {
+    for (LobeTexel& texel : out) {
+      const int x = next_ % 32;
+      const int y = next_++ / 32;
+      const bool over = (x / 8 + y / 8) % 2 == 0;
+      const double across = ((over ? y : x) % 8 - 3.5) / 4;
+      texel.normal = over ? Vec3(0, -0.7 * across, 1).normalized() : Vec3(0.7 * across, 0, 1).normalized();
+      texel.s = roughness_matrix({0.3, 0.12, over ? kPi / 2 : 0});
+    }
+  }
+
+ private:
+  int next_ = 0;
+};
+
+TEST(LobeMips, Ktx2ComesBackAsItWasFiltered) {
+  const test::TemporaryFolder folder;
+  ChainOptions options;
+  Weave in_memory;
+  const LobeMips expected = make_lobe_mips(in_memory, options, AnisotropyEncoding::root);
+  for (const auto kind : {LobeOutput::Kind::ktx2, LobeOutput::Kind::ktx2_blocks}) {
+    Weave source;
+    LobeOutput output;
+    output.kind = kind;
+    output.green_down = kind == LobeOutput::Kind::ktx2;
+    const auto files = write_lobe_chain(source, folder / "weave.ktx2", options, output);
+    const LobeMips read = read_lobe_mips(files[0], files[1]);
+    EXPECT_EQ(read.green_down, output.green_down);
+    EXPECT_EQ(read.encoding, AnisotropyEncoding::root);
+    ASSERT_EQ(read.normals.size(), expected.normals.size());
+    const double tolerance = kind == LobeOutput::Kind::ktx2 ? 0.51 / 255 : 8.0 / 255;
+    for (std::size_t level = 0; level < read.normals.size(); ++level) {
+      const Image& n = read.normals[level];
+      const Image& a = read.anisotropy[level];
+      for (int y = 0; y < n.height; ++y) {
+        for (int x = 0; x < n.width; ++x) {
+          const float green = expected.normals[level].at(x, y, 1);
+          ASSERT_NEAR(n.at(x, y, 0), expected.normals[level].at(x, y, 0), tolerance);
+          ASSERT_NEAR(n.at(x, y, 1), read.green_down ? 1 - green : green, tolerance);
+          for (int c = 0; c < 3; ++c) {
+            ASSERT_NEAR(a.at(x, y, c), expected.anisotropy[level].at(x, y, c), tolerance);
+          }
+        }
+      }
+    }
+  }
+}
+
+TEST(Mapped, MaterialFilesAreReadAndWrongOnesNamed) {
+  const test::TemporaryFolder folder;
+  const auto load = [&](const std::string& text) -> std::string {
+    std::ofstream(folder / "m.json") << text;
+    try {
+      const auto appearance = load_appearance(folder / "m.json");
+      return appearance->evaluate({}).allFinite() ? "" : "not finite";
+    } catch (const Error& error) {
+      return error.what();
+    }
+  };
+  const std::string weave = (test::examples() / "textures/weave_normal.png").string();
+  EXPECT_EQ(load(R"({"model": "mapped", "normals": ")" + weave +
+                 R"(", "roughness": [0.5, 0.3], "repeat": 4, "f0": 0.6, "base": {"color": 0.1}})"),
+            "");
+  write_data(folder / "small.png", Image(8, 8, 3, 0.5f));
+  Weave source;
+  write_lobe_chain(source, folder / "w.ktx2", {}, {.kind = LobeOutput::Kind::ktx2_blocks});
+  EXPECT_EQ(load(R"({"model": "mapped", "normals": "w_normal.ktx2", "anisotropy": "w_aniso.ktx2"})"), "");
+  EXPECT_THAT(load(R"({"model": "mapped", "normals": "w_aniso.ktx2", "anisotropy": "w_aniso.ktx2"})"),
+              HasSubstr("w_aniso.ktx2: is no such map"));
+  EXPECT_THAT(load(R"({"model": "mapped", "normals": "w_normal.ktx2"})"), HasSubstr("both"));
+  EXPECT_THAT(load(R"({"model": "mapped"})"), HasSubstr("nothing to filter"));
+  EXPECT_THAT(load(R"({"model": "mapped", "normals": ")" + weave + R"(", "anisotropy": "small.png"})"),
+              HasSubstr("small.png: is 8 x 8"));
+  EXPECT_THAT(load(R"({"model": "mapped", "normals": ")" + weave + R"(", "repeat": 0})"),
+              HasSubstr("repeat"));
+  EXPECT_THAT(load(R"({"model": "mapped", "normals": ")" + weave + R"(", "bass": 0})"), HasSubstr("bass"));
+  EXPECT_THAT(load(R"({"model": "mapped", "normals": ")" + weave + R"(", "fuzz": {}})"), HasSubstr("fuzz"));
+}
+
+}  // namespace
+}  // namespace sateen
