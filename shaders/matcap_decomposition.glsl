@@ -27,12 +27,17 @@ float decomposed_slope(float variance) {
   return clamp(1.0 - variance * (0.3 + 1.1 * variance), 0.0, 1.0);
 }
 
-// n with its angle theta to +z made (1 + mu) theta
-vec3 decomposed_warp(vec3 n, float mu) {
+// n with its angle theta to +z made (1 + mu) theta. sin(2 theta) and cos(2 theta) need no trigonometry; what remains,
+// (1 - mu) theta, does. Diffuse parts have mu = 0 and stay.
+vec3 decomposed_warp(vec3 n, float mu, float theta) {
+  if (mu == 0.0) return n;
   float across = length(n.xy);
-  float angle = (1.0 + mu) * atan(across, n.z);
   vec2 azimuth = across > 1e-7 ? n.xy / across : vec2(1.0, 0.0);
-  return vec3(azimuth * sin(angle), cos(angle));
+  vec2 doubled = vec2(2.0 * across * n.z, n.z * n.z - across * across) / (across * across + n.z * n.z);
+  float less = (1.0 - mu) * theta;
+  float s = sin(less);
+  float c = cos(less);
+  return vec3(azimuth * (doubled.x * c - doubled.y * s), doubled.y * c + doubled.x * s);
 }
 
 // Mixing two levels mixes their variances: linear in variance.
@@ -53,8 +58,9 @@ vec3 decomposed_lookup(vec3 w, float first_layer, float level) {
 }
 
 float decomposed_silhouette(vec4 s, float theta) {
+  if (s.w < 0.5) return 1.0;
   float t = clamp((theta - s.x) / (1.5707963 - s.x), 0.0, 1.0);
-  return s.w > 0.5 ? max(0.0, 1.0 + t * t * ((3.0 - 2.0 * t) + (t - 1.0) * s.y) * s.z) : 1.0;
+  return max(0.0, 1.0 + t * t * ((3.0 - 2.0 * t) + (t - 1.0) * s.y) * s.z);
 }
 
 float decomposed_decode(float v) {
@@ -76,8 +82,8 @@ vec3 matcap_decomposition(Surface s) {
   }
   vec3 n = vec3(s.eye_normal.xy, max(s.eye_normal.z, 0.0));
   float theta = atan(length(n.xy), n.z);
-  vec3 low_way = decomposed_light_back * decomposed_warp(n, decomposed_low_slope);
-  vec3 high_way = decomposed_light_back * decomposed_warp(n, decomposed_slope(decomposed_high_variance + added));
+  vec3 low_way = decomposed_light_back * decomposed_warp(n, decomposed_low_slope, theta);
+  vec3 high_way = decomposed_light_back * decomposed_warp(n, decomposed_slope(decomposed_high_variance + added), theta);
   vec3 sum = low_color * decomposed_lookup(low_way, 0.0, 0.0) * decomposed_silhouette(decomposed_low_silhouette, theta) +
              high_color * decomposed_lookup(high_way, 2.0, added > 0.0 ? decomposed_level(added) : 0.0) *
                  decomposed_silhouette(decomposed_high_silhouette, theta);

@@ -14,13 +14,18 @@
 namespace sateen {
 namespace {
 
-constexpr double kSmallestWindow = 6;   // pixels at the middle of the sphere
-constexpr double kContrast = 0.2;       // of the brightest value: how far a feature must stand out
-constexpr double kShapeSlack = 0.08;    // of an edge's step: how far it may be from a blurred edge
-constexpr double kPlateauSlack = 0.15;  // of an edge's step: how much the plateaus beside it may change
-constexpr int kMeridians = 72;
-constexpr double kNearRim = 1.35;         // radians: beyond, too little of the sphere is seen to measure
-constexpr std::size_t kMostPixels = 256;  // of a region that are looked at
+constexpr double kSmallestWindow = 6;  // pixels at the middle of the sphere
+constexpr double kContrast = 0.2;      // of the brightest value: how far a feature must stand out
+constexpr double kShapeSlack = 0.1;    // of an edge's step: how far it may be from a blurred edge
+constexpr double kPlateauSlack = 0.2;  // of an edge's step: how much the plateaus beside it may change
+constexpr int kMeridians = 180;
+constexpr double kBeside[] = {-4, -2, 2, 4};  // pixels: meridians that have to confirm a feature
+constexpr int kConfirmations = 3;             // of those
+constexpr double kMostTurned = 16;            // pixels from the middle
+constexpr double kConfirmedContrast = 0.1;    // of the brightest value: how far it stands out there
+constexpr double kAgreement = 1.5;            // of variances
+constexpr double kNearRim = 1.35;             // radians: beyond, too little of the sphere is seen to measure
+constexpr std::size_t kMostPixels = 256;      // of a region that are looked at
 
 /// Something measured at one point of the sphere.
 struct Measured {
@@ -29,6 +34,7 @@ struct Measured {
   double theta = 0;
   double azimuth = 0;
   Signature signature;
+  double direction = 1;  ///< of an edge: 1 where it rises with theta, else -1
 };
 
 Image intensity_of(const Image& component, const Disc& disc) {
@@ -80,13 +86,26 @@ std::optional<Measured> measure(const MeridianProfile& profile, double theta, do
                                 double smallest) {
   Signature s = signature(profile, theta, smallest);
   if (!s.chosen) return std::nullopt;
-  return Measured{s.variance[*s.chosen], Feature::line, theta, azimuth, std::move(s)};
+  return Measured{s.variance[*s.chosen], Feature::line, theta, azimuth, std::move(s), 1};
+}
+
+/// Where `profile` is largest within `reach` of theta: the middle of the feature that was measured there.
+double peak_near(const MeridianProfile& profile, double theta, double reach) {
+  const auto index = [&](double t) {
+    const double i = std::round((t + kPi / 2) / profile.step);
+    return static_cast<std::ptrdiff_t>(std::clamp(i, 0.0, static_cast<double>(profile.values.size() - 1)));
+  };
+  const auto from = profile.values.begin() + index(theta - reach);
+  const auto best = std::max_element(from, profile.values.begin() + index(theta + reach) + 1);
+  return profile.angle(static_cast<std::size_t>(best - profile.values.begin()));
 }
 
 std::optional<Measured> measure_line(const MeridianProfile& profile, double theta, double azimuth,
                                      double smallest, double brightest) {
   auto measured = measure(profile, theta, azimuth, smallest);
-  if (measured && !is_bump(profile, theta, std::sqrt(measured->variance), brightest)) measured.reset();
+  if (!measured) return measured;
+  const double s = std::sqrt(measured->variance);
+  if (!is_bump(profile, peak_near(profile, theta, s), s, brightest)) measured.reset();
   return measured;
 }
 
@@ -96,9 +115,11 @@ std::optional<Measured> measure_edge(const MeridianProfile& profile, const Merid
   const double direction = value_at(slope, theta) < 0 ? -1 : 1;
   for (double& v : rising.values) v = std::max(0.0, direction * v);
   auto measured = measure(rising, theta, azimuth, smallest);
-  if (!measured || !is_step(profile, theta, direction, std::sqrt(measured->variance), brightest))
-    return std::nullopt;
+  if (!measured) return std::nullopt;
+  const double s = std::sqrt(measured->variance);
+  if (!is_step(profile, peak_near(rising, theta, s), direction, s, brightest)) return std::nullopt;
   measured->feature = Feature::edge;
+  measured->direction = direction;
   return measured;
 }
 
@@ -115,6 +136,33 @@ FilterEstimate concluded(const std::optional<Measured>& best, double fallback, c
   result.azimuth = best->azimuth;
   result.signature = best->signature;
   return result;
+}
+
+/// A place where a profile steps up or down with the shape of an edge blurred by `width` (standard
+/// deviation).
+struct Step {
+  double theta;
+  double width;
+};
+
+/// Steps from the narrowest on: where the difference across a width is largest and has that shape. Noise and
+/// contours shift the steepest pixel, not this.
+std::vector<Step> steps_of(const MeridianProfile& profile, double brightest) {
+  std::vector<Step> steps;
+  for (double s = 0.7 * 2 * profile.step; s < 0.3; s *= 1.4) {
+    const auto difference = [&](double theta) {
+      return std::abs(value_at(profile, theta + s) - value_at(profile, theta - s));
+    };
+    for (double theta = -kNearRim; theta <= kNearRim; theta += std::max(profile.step, 0.2 * s)) {
+      const double here = difference(theta);
+      if (here < 0.5 * kContrast * brightest) continue;
+      const auto less = [&](double t) { return difference(theta + t * s) <= here; };
+      if (!less(-0.25) || !less(0.25) || !less(-0.7) || !less(0.7)) continue;
+      const double direction = value_at(profile, theta + s) < value_at(profile, theta - s) ? -1 : 1;
+      if (is_step(profile, theta, direction, s, brightest)) steps.push_back({theta, s});
+    }
+  }
+  return steps;
 }
 
 /// Ridges and edges of one meridian that stand out, measured.
@@ -144,30 +192,54 @@ std::vector<Measured> candidates_on(const Image& intensity, const Disc& disc, do
     }
     return true;
   };
-  const auto steps_at_some_scale = [&](double theta, double sign) {  // cheap, before the signature is taken
-    for (double s = 0.7 / disc.radius; s < 0.3; s *= 1.4) {
-      if (is_step(profile, theta, sign, s, 0.8 * brightest)) return true;
-    }
-    return false;
-  };
   for (std::size_t i = reach; i + reach < profile.values.size(); ++i) {
-    const double theta = profile.angle(i);
-    if (std::abs(theta) > kNearRim) continue;
-    if (peak(profile.values, i, 1) && stands_out(i)) {
-      if (auto m = measure_line(profile, theta, azimuth, smallest, brightest)) found.push_back(std::move(*m));
-    }
-    const double sign = slope.values[i] < 0 ? -1 : 1;
-    if (peak(slope.values, i, sign) && steps_at_some_scale(theta, sign)) {
-      if (auto m = measure_edge(profile, slope, theta, azimuth, smallest, brightest))
-        found.push_back(std::move(*m));
+    if (std::abs(profile.angle(i)) > kNearRim || !peak(profile.values, i, 1) || !stands_out(i)) continue;
+    if (auto m = measure_line(profile, profile.angle(i), azimuth, smallest, brightest))
+      found.push_back(std::move(*m));
+  }
+  std::vector<double> edges;
+  for (const Step& step : steps_of(profile, 0.8 * brightest)) {
+    const auto same = [&](double theta) { return std::abs(theta - step.theta) < 0.5 * step.width; };
+    if (std::ranges::any_of(edges, same)) continue;
+    if (auto m = measure_edge(profile, slope, step.theta, azimuth, smallest, brightest)) {
+      found.push_back(std::move(*m));
+      edges.push_back(step.theta);
     }
   }
   return found;
 }
 
+/// Whether the meridians a few pixels to both sides show the same feature as sharp: noise does not go on from
+/// pixel to pixel, features do.
+bool is_confirmed(const Measured& m, const Image& intensity, const Disc& disc, double brightest) {
+  const double s = std::sqrt(m.variance);
+  int confirmed = 0;
+  for (const double pixels : kBeside) {
+    // Through the middle of the sphere go all meridians, and a line looks wider from the side.
+    const double turn = pixels / std::max(disc.radius * std::abs(std::sin(m.theta)), kMostTurned);
+    const double reach = (std::abs(pixels) + 1) / disc.radius + 0.5 * s;
+    const MeridianProfile profile = meridian_profile(intensity, disc, m.azimuth + turn);
+    MeridianProfile seen = profile;
+    if (m.feature == Feature::edge) {
+      seen = derivative(profile);
+      for (double& v : seen.values) v = std::max(0.0, m.direction * v);
+    }
+    const double theta = peak_near(seen, m.theta, reach);
+    const auto beside = measure(seen, theta, m.azimuth + turn, kSmallestWindow / disc.radius);
+    if (!beside) continue;
+    const double ratio = beside->variance / m.variance;
+    if (ratio > kAgreement || ratio < 1 / kAgreement) continue;
+    const double change = m.direction * (value_at(profile, theta + 3 * s) - value_at(profile, theta - 3 * s));
+    if (m.feature == Feature::edge ? change > kConfirmedContrast * brightest
+                                   : is_bump(profile, theta, s, kConfirmedContrast / kContrast * brightest))
+      ++confirmed;
+  }
+  return confirmed >= kConfirmations;
+}
+
 Region around(const Measured& m, const Disc& disc, const Image& image) {
   const Vec2 p = disc_pixel(disc, std::sin(m.theta) * Vec2(std::cos(m.azimuth), std::sin(m.azimuth)));
-  const int half = std::max(1, static_cast<int>(disc.radius / 64));
+  const int half = std::max(1, static_cast<int>(disc.radius / 32));
   const int x0 = std::clamp(static_cast<int>(p.x()) - half, 0, image.width - 1);
   const int y0 = std::clamp(static_cast<int>(p.y()) - half, 0, image.height - 1);
   return {x0, y0, std::min(2 * half + 1, image.width - x0), std::min(2 * half + 1, image.height - y0)};
@@ -233,26 +305,14 @@ FilterEstimate estimate_filter(const Image& component, const Disc& disc, double 
   std::vector<Measured> all;
   for (auto& row : rows) std::ranges::move(row, std::back_inserter(all));
   std::ranges::stable_sort(all, {}, &Measured::variance);
-  const auto direction = [](const Measured& m) {
-    return Vec3(std::sin(m.theta) * std::cos(m.azimuth), std::sin(m.theta) * std::sin(m.azimuth),
-                std::cos(m.theta));
-  };
-  std::optional<Measured> best;
-  for (std::size_t i = 0; i < all.size() && !best; ++i) {
-    int confirmed = 0;
-    for (std::size_t j = 0; j < all.size(); ++j) {
-      if (j == i || all[j].feature != all[i].feature || all[j].azimuth == all[i].azimuth) continue;
-      const double ratio = all[j].variance / all[i].variance;
-      if (ratio > 1.5 || ratio < 1 / 1.5) continue;
-      const double spacing = kPi / kMeridians * std::abs(std::sin(all[i].theta));
-      const double apart = std::acos(std::clamp(direction(all[i]).dot(direction(all[j])), -1.0, 1.0));
-      if (apart < 2.5 * spacing + 0.5 * std::sqrt(all[i].variance)) ++confirmed;
-    }
-    if (confirmed >= 2) best = all[i];
+  for (const Measured& m : all) {
+    if (!is_confirmed(m, intensity, disc, brightest)) continue;
+    FilterEstimate result = estimate_filter(component, disc, {around(m, disc, component)}, fallback, "found");
+    result.automatic = true;
+    if (result.measured) return result;
   }
-  FilterEstimate result = concluded(best, fallback, disc);
+  FilterEstimate result = concluded(std::nullopt, fallback, disc);
   result.automatic = true;
-  if (best) result.regions = {around(*best, disc, component)};
   return result;
 }
 

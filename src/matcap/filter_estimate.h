@@ -37,8 +37,12 @@ struct FilterEstimate {
 /// The variance at which slope_of_variance reaches 0: broader filters all look along the normal.
 inline constexpr double kFlattest = 0.8277;
 
-/// Variance of a cosine lobe on a meridian, pi^2/4 - 2: what a Lambertian material's filter has.
-inline constexpr double kLambertian = 0.4674;
+/// What a low part is taken to have in which nothing is sharp. Separation leaves an envelope of cosine lobes,
+/// in which nothing is sharper than Lambertian shading, and the signature of a cosine lobe settles above
+/// 0.7. Here the slope is 0, as section 3.1 has it for diffuse light: such shading turns as far as its light
+/// does. (The lobe's variance as a whole, pi^2/4 - 2 = 0.467, would give a slope of 0.62 and turn it by 62
+/// %.)
+inline constexpr double kLambertian = kFlattest;
 
 /// The least variance over the pixels of the regions, each with the signature of R and, where the profile is
 /// an edge between two plateaus, of dR/dtheta. A careful user draws regions around the sharpest features.
@@ -47,9 +51,10 @@ inline constexpr double kLambertian = 0.4674;
 FilterEstimate estimate_filter(const Image& component, const Disc& disc, const std::vector<Region>& regions,
                                double fallback, const std::string& name);
 
-/// The same with regions found: along meridians all over the sphere, ridges and edges that stand out by at
-/// least a fifth of the brightest value give candidates; the sharpest one that its neighbours on the next
-/// meridians confirm is taken, so that grain and compression noise, sharp but alone, are not.
+/// The same with a region found: along meridians all over the sphere, ridges and edges that stand out by at
+/// least a fifth of the brightest value give candidates. The sharpest one that the meridians 2 and 4 pixels
+/// beside it confirm is taken, so that grain and compression noise, sharp but alone, are not; the pixels
+/// around it are the region.
 FilterEstimate estimate_filter(const Image& component, const Disc& disc, double fallback);
 
 /// The colour at the brightest point (section 3.2), by luminance; channels are kept above a thousandth of the

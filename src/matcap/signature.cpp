@@ -66,7 +66,9 @@ void choose_window(Signature& s) {
 
   std::size_t start = 0;
   bool inflected = false;
-  if (slope(0) > kPlateau && slope(1) > kPlateau) {
+  // A feature narrower than the window is seen whole already: what follows is its surroundings.
+  const bool seen_whole = s.variance[first] < s.eps[first] * s.eps[first] / 9;
+  if (!seen_whole && slope(0) > kPlateau && slope(1) > kPlateau) {
     // The initial increase: it ends where the curve, after it has bent down, bends up again.
     bool bent_down = false;
     for (std::size_t i = 1; i + 1 < y.size() && !inflected; ++i) {

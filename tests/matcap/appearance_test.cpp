@@ -69,6 +69,30 @@ TEST(DecomposedOnGpu, EqualsTheEvaluatorWithTextures) {
   expect_matches(unedited(carpaint()), maps);
 }
 
+// Figure 14: MatCaps by material, their main highlights brought to one place and turned together.
+TEST(DecomposedOnGpu, SeveralByMaterialAlignedAndTurnedTogetherEqualTheEvaluator) {
+  Scene scene;
+  scene.mesh = test::torus();
+  scene.mesh.material_names = {"left", "right"};
+  for (const auto& triangle : scene.mesh.triangles) {
+    const float x = scene.mesh.positions[static_cast<std::size_t>(triangle[0])].x();
+    scene.mesh.material_ids.push_back(x < 0 ? 0 : 1);
+  }
+  const char* together = R"([{"edit": "align", "to": [-0.3, 0.4]}, {"edit": "turn", "degrees": [0, 40, 0]}])";
+  scene.materials.resize(2);
+  const MatcapDecomposition lead =
+      decompose(test::example_matcap("lead", 128), inscribed_disc(128, 128), {}, "lead");
+  scene.materials[0].appearance = std::make_shared<const DecomposedAppearance>(edited(together));
+  scene.materials[1].appearance =
+      std::make_shared<const DecomposedAppearance>(apply_edits(lead, parse_edits(together, {}, "edits")));
+  test::Picture picture;
+  picture.width = picture.height = 96;
+  const Frame frame = test::render(scene, picture);
+  const test::Difference difference = test::against_evaluator(frame, scene.materials, kTolerance);
+  EXPECT_GT(difference.pixels, 96 * 96 / 10);
+  EXPECT_EQ(difference.failing, 0) << difference.largest;
+}
+
 TEST(DecomposedAppearance, IsLoadedByTheRegistryAsTextureAndAsMaterial) {
   const test::TemporaryFolder folder;
   write_matcap(folder / "paint.ktx2", carpaint());
