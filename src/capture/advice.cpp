@@ -17,9 +17,8 @@ std::string lens_advice(const SphereView& sphere) {
   const double bend = std::abs(std::sin(std::atan(0.5 * std::tan(half))) / std::sin(half) - 0.5);
   return fmt::format(
       "the lens is unknown, so a horizontal field of view of {:.0f} degrees was assumed. If it is much "
-      "longer, "
-      "normals are off by about {:.1f} and tangents by about {:.1f} degrees half-way to the rim. Give "
-      "--focal-mm with --sensor-mm, --fov, or a calibration (sateen capture calibrate)",
+      "longer, normals are off by about {:.1f} and tangents by about {:.1f} degrees half-way to the rim. "
+      "Give --focal-mm with --sensor-mm, --fov, or a calibration (sateen capture calibrate)",
       kAssumedFov, degrees(bend), degrees(half / 2));
 }
 

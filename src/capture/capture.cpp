@@ -11,6 +11,7 @@
 #include "sateen/capture/make_table.h"
 #include "sateen/capture/measure.h"
 #include "sateen/capture/mirror_ball_shot.h"
+#include "sateen/capture/part_of_progress.h"
 #include "sateen/capture/rig.h"
 #include "sateen/capture/seams.h"
 #include "sateen/capture/used_frames.h"
@@ -48,13 +49,13 @@ CaptureResult build_capture(const std::vector<std::filesystem::path>& inputs, co
   CaptureResult result;
   result.camera = choose_camera(source, options);
 
-  const FirstLook look = first_look(source, result.camera, part(options.progress, 0, 0.1));
+  const FirstLook look = first_look(source, result.camera, part_of(options.progress, 0, 0.1));
   const Mat3 axes = eye_frame(-sphere_at(look.camera, look.centre, look.outline.radius).centre.normalized());
-  std::vector<FrameNotes> notes = measure_frames(source, look, axes, part(options.progress, 0.1, 0.45));
+  std::vector<FrameNotes> notes = measure_frames(source, look, axes, part_of(options.progress, 0.1, 0.45));
   result.frames = frames_of(source, notes);
 
   drop_blurred(notes, result.frames);
-  const FrameAngles turn = find_frame_angles(notes, axes, options, result.frames);
+  const FrameAngles turn = find_frame_angles(notes, axes, options, source.stride(), result.frames);
   result.axis = turn.axis;
   result.equal_steps = turn.equal_steps;
   result.turned = turn.turned;
@@ -66,7 +67,8 @@ CaptureResult build_capture(const std::vector<std::filesystem::path>& inputs, co
   result.outline_support = rig.outline_support;
   result.photometry = find_frame_light(notes, look, source.height(), result.frames, result.warnings);
 
-  const RectifiedStack stack = collect_stack(source, look, options, part(options.progress, 0.5, 0.9), result);
+  const RectifiedStack stack =
+      collect_stack(source, look, options, part_of(options.progress, 0.5, 0.9), result);
   result.mask = find_seams(stack, options, result);
   const double first_angle = find_first_angle(stack, options, result);
   for (CaptureFrame& frame : result.frames) frame.angle = wrap(first_angle + frame.turned, 2 * kPi);

@@ -18,9 +18,10 @@ namespace {
 constexpr double kRegistrationNoise = radians(0.25);
 constexpr const char* kNoAngle = "its angle cannot be found";
 
-/// The angles that need not be found, one for each of `indices`; empty when the pictures have to tell.
+/// The angles that need not be found, one for each of `indices`; empty when the pictures have to tell. Those
+/// given are of all frames there are, of which every `stride`-th is used.
 std::vector<double> known_angles(const std::vector<std::size_t>& indices, std::size_t frames,
-                                 const CaptureOptions& options) {
+                                 std::size_t stride, const CaptureOptions& options) {
   std::vector<double> known;
   if (options.angle_source == AngleSource::equal) {
     const double turn = (options.clockwise ? -1 : 1) * 2 * kPi;
@@ -28,9 +29,14 @@ std::vector<double> known_angles(const std::vector<std::size_t>& indices, std::s
       known.push_back(turn * static_cast<double>(i) / static_cast<double>(frames));
   }
   if (options.angle_source == AngleSource::given) {
-    if (options.angles.size() != frames)
-      throw Error(fmt::format("{} angles are given for {} frames", options.angles.size(), frames));
-    for (const std::size_t i : indices) known.push_back(options.angles[i]);
+    const std::size_t given = options.angles.size();
+    if ((given + stride - 1) / stride != frames) {
+      throw Error(fmt::format("{} angles are given for {} frames", given,
+                              stride == 1
+                                  ? fmt::format("{}", frames)
+                                  : fmt::format("{} to {}", (frames - 1) * stride + 1, frames * stride)));
+    }
+    for (const std::size_t i : indices) known.push_back(options.angles[i * stride]);
   }
   return known;
 }
@@ -39,10 +45,8 @@ void check_registration(const Turning& turning) {
   if (median(turning.confidence) >= 1.3 * turning.confidence_floor) return;
   throw Error(
       "the turning cannot be followed: the surface shows no detail (weave, grain, a seam) sharp enough. "
-      "Stick "
-      "a few small marks on it outside the part that counts, or say how it turned: --angles equal or "
-      "--angles "
-      "FILE");
+      "Stick a few small marks on it outside the part that counts, or say how it turned: --angles equal or "
+      "--angles FILE");
 }
 
 void drop_unregistered(const Turning& turning, const std::vector<std::size_t>& indices,
@@ -78,7 +82,7 @@ bool recognise_equal_steps(std::vector<CaptureFrame>& frames) {
 }  // namespace
 
 FrameAngles find_frame_angles(std::vector<FrameNotes>& notes, const Mat3& axes, const CaptureOptions& options,
-                              std::vector<CaptureFrame>& frames) {
+                              int stride, std::vector<CaptureFrame>& frames) {
   const std::vector<std::size_t> indices = used_frames(frames);
   if (indices.size() < static_cast<std::size_t>(kFewestCaptureFrames)) {
     throw Error(
@@ -86,7 +90,8 @@ FrameAngles find_frame_angles(std::vector<FrameNotes>& notes, const Mat3& axes, 
   }
   std::vector<SurfacePatch> patches;
   for (const std::size_t i : indices) patches.push_back(std::move(notes[i].patch));
-  const std::vector<double> known = known_angles(indices, frames.size(), options);
+  const std::vector<double> known =
+      known_angles(indices, frames.size(), static_cast<std::size_t>(stride), options);
   const Turning turning =
       known.empty() ? find_turning(patches, axes) : find_axis(patches, axes, known, false);
   if (known.empty()) check_registration(turning);
@@ -125,15 +130,15 @@ void check_turn(const std::vector<CaptureFrame>& frames, const CaptureOptions& o
   const double even = period / static_cast<double>(angles.size());
   if (found.widest > std::max(radians(25), 3.5 * even)) {
     throw Error(fmt::format(
-        "the turn is not complete: the frames cover {:.0f} of {:.0f} degrees and leave a gap of {:.0f}. Turn "
-        "the sphere all the way round; if it did, its surface shows too little detail to follow: say how it "
-        "turned with --angles",
+        "the turn is not complete: the frames cover {:.0f} of {:.0f} degrees and leave a gap of {:.0f}. "
+        "Turn the sphere all the way round; if it did, its surface shows too little detail to follow: say "
+        "how it turned with --angles",
         degrees(period - found.widest + found.median), degrees(period), degrees(found.widest)));
   }
   if (found.widest > std::max(radians(10), 2.5 * even)) {
     warnings.push_back(fmt::format(
-        "between two frames the sphere turned by {:.0f} degrees: the material is interpolated there. Turn it "
-        "more evenly",
+        "between two frames the sphere turned by {:.0f} degrees: the material is interpolated there. Turn "
+        "it more evenly",
         degrees(found.widest)));
   }
 }

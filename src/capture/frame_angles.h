@@ -16,10 +16,11 @@ struct FrameAngles {
 };
 
 /// Sets every frame's `turned` (0 for the first used frame) and `confidence`, and drops frames that turn out
-/// blurred, repeated or not to be registered. Uses up the notes' patches. `axes` as in surface_patch. Throws
-/// Error when too few frames are left or the surface shows too little to be followed.
+/// blurred, repeated or not to be registered. Uses up the notes' patches. `axes` as in surface_patch;
+/// `stride` as in FrameSource. Throws Error when too few frames are left, the surface shows too little to be
+/// followed, or other than one angle a frame is given.
 FrameAngles find_frame_angles(std::vector<FrameNotes>& notes, const Mat3& axes, const CaptureOptions& options,
-                              std::vector<CaptureFrame>& frames);
+                              int stride, std::vector<CaptureFrame>& frames);
 
 /// Throws Error unless the used frames go all the way round; warns of wide gaps.
 void check_turn(const std::vector<CaptureFrame>& frames, const CaptureOptions& options,

@@ -36,8 +36,7 @@ Rig find_rig(const std::vector<FrameNotes>& notes, const FirstLook& look, const 
   if (!circular) {
     warnings.push_back(
         fmt::format("the sphere does not turn about a fixed axis (its picture strays by {:.1f} pixels from a "
-                    "circle): the "
-                    "stand may have been touched. Each frame was measured alone",
+                    "circle): the stand may have been touched. Each frame was measured alone",
                     wobble.rms));
   }
   if (rig.outline_support < 0.5) {

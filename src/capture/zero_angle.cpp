@@ -20,8 +20,8 @@ double seam_direction(const SurfaceMask& mask) {
   double direction = 0;
   if (mask_direction(mask, direction)) return direction;
   throw Error(
-      "no seam found to one side of the sphere's middle, so the tangent cannot be taken from it; paint it on "
-      "one frame (--mask) or give --first-angle");
+      "no seam found to one side of the sphere's middle, so the tangent cannot be taken from it; paint it "
+      "on one frame (--mask) or give --first-angle");
 }
 
 double threads_direction(const RectifiedStack& stack) {
@@ -54,10 +54,10 @@ double find_first_angle(const RectifiedStack& stack, const CaptureOptions& optio
   result.zero_source = "angle of the first frame given";
   if (!options.zero_given) {
     result.zero_source = "not given: first frame is 0";
-    result.warnings.push_back(
-        "the tangent's direction is unknown, so the first frame's was called 0 degrees. Give --first-angle, "
-        "or "
-        "--thread-direction read off a picture, or --tangent-from-seam when the cloth is sewn at a pole");
+    result.warnings.emplace_back(
+        "the tangent's direction is unknown, so the first frame's was called 0 degrees. Give "
+        "--first-angle, or --thread-direction read off a picture, or --tangent-from-seam when the cloth is "
+        "sewn at a pole");
   }
   return options.zero_angle;
 }

@@ -13,10 +13,4 @@ inline void report(const Progress& progress, double fraction) {
   if (progress) progress(fraction);
 }
 
-/// The part of `whole` from one fraction to another.
-inline Progress part(const Progress& whole, double from, double to) {
-  if (!whole) return {};
-  return [whole, from, to](double fraction) { whole(from + (to - from) * fraction); };
-}
-
 }  // namespace sateen
