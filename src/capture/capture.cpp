@@ -59,7 +59,7 @@ CaptureResult build_capture(const std::vector<std::filesystem::path>& inputs, co
   result.axis = turn.axis;
   result.equal_steps = turn.equal_steps;
   result.turned = turn.turned;
-  check_turn(result.frames, options, result.warnings);
+  check_turn(result.frames, turn, options, result.warnings);
   const Rig rig = find_rig(notes, look, result.camera, result.frames, result.warnings);
   result.sphere = rig.sphere;
   result.wobble = rig.wobble;

@@ -45,8 +45,10 @@ void count_clipped(const RectifiedStack& stack, CaptureResult& result) {
 
 RectifiedStack collect_stack(FrameSource& source, const FirstLook& look, const CaptureOptions& options,
                              const Progress& progress, CaptureResult& result) {
-  const double rim = 1.5 * look.factor;
-  const RectifyMap map(result.camera, result.sphere, options.size, options.frame, rim);
+  // A bright background shines in further than a pixel: the lens blurs, JPEG rings.
+  const double rim = 2.5 * look.factor;
+  RectifyMap map(result.camera, result.sphere, options.size, options.frame, rim);
+  map.hide(find_stand(look, result.warnings));
   RectifiedStack stack;
   stack.size = options.size;
   stack.axis = result.axis;
@@ -54,7 +56,6 @@ RectifiedStack collect_stack(FrameSource& source, const FirstLook& look, const C
   for (int y = 0; y < options.size; ++y) {
     for (int x = 0; x < options.size; ++x) stack.points.push_back(map.point(x, y));
   }
-  hide_what_stands_still(map, look, stack.points, result.warnings);
   std::vector<int> indices;
   for (const std::size_t i : used_frames(result.frames)) indices.push_back(static_cast<int>(i));
   result.preview_frame = indices.front();

@@ -16,6 +16,7 @@ namespace sateen {
 namespace {
 
 constexpr double kRegistrationNoise = radians(0.25);
+constexpr double kDoubtful = radians(0.6);  // above it is no registration noise
 constexpr const char* kNoAngle = "its angle cannot be found";
 
 /// The angles that need not be found, one for each of `indices`; empty when the pictures have to tell. Those
@@ -101,6 +102,7 @@ FrameAngles find_frame_angles(std::vector<FrameNotes>& notes, const Mat3& axes, 
   }
   FrameAngles found;
   found.axis = turning.axis;
+  found.contradiction = turning.contradiction;
   if (known.empty()) {
     drop_unregistered(turning, indices, frames);
     found.equal_steps = recognise_equal_steps(frames);
@@ -116,8 +118,8 @@ FrameAngles find_frame_angles(std::vector<FrameNotes>& notes, const Mat3& axes, 
   return found;
 }
 
-void check_turn(const std::vector<CaptureFrame>& frames, const CaptureOptions& options,
-                std::vector<std::string>& warnings) {
+void check_turn(const std::vector<CaptureFrame>& frames, const FrameAngles& turn,
+                const CaptureOptions& options, std::vector<std::string>& warnings) {
   std::vector<double> angles;
   for (const std::size_t i : used_frames(frames)) angles.push_back(frames[i].turned);
   if (angles.size() < static_cast<std::size_t>(kFewestCaptureFrames)) {
@@ -140,6 +142,14 @@ void check_turn(const std::vector<CaptureFrame>& frames, const CaptureOptions& o
         "between two frames the sphere turned by {:.0f} degrees: the material is interpolated there. Turn "
         "it more evenly",
         degrees(found.widest)));
+  }
+  if (turn.contradiction > kDoubtful) {
+    warnings.push_back(fmt::format(
+        "the frames' angles are doubtful: parts of the sphere contradict them by {:.1f} degrees. The axis "
+        "may "
+        "be tilted too far, the surface may move on the sphere or show too little detail. Point the axis at "
+        "the lens, or give the stage's angles (--angles)",
+        degrees(turn.contradiction)));
   }
 }
 

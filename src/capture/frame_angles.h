@@ -13,6 +13,7 @@ struct FrameAngles {
   Vec3 axis{0, 0, 1};        ///< view space, unit, towards the camera
   bool equal_steps = false;  ///< recognised, and then used exactly
   double turned = 0;         ///< radians from the first to the last used frame
+  double contradiction = 0;  ///< Turning::contradiction
 };
 
 /// Sets every frame's `turned` (0 for the first used frame) and `confidence`, and drops frames that turn out
@@ -22,8 +23,9 @@ struct FrameAngles {
 FrameAngles find_frame_angles(std::vector<FrameNotes>& notes, const Mat3& axes, const CaptureOptions& options,
                               int stride, std::vector<CaptureFrame>& frames);
 
-/// Throws Error unless the used frames go all the way round; warns of wide gaps.
-void check_turn(const std::vector<CaptureFrame>& frames, const CaptureOptions& options,
-                std::vector<std::string>& warnings);
+/// Throws Error unless the used frames go all the way round; warns of wide gaps and of angles that contradict
+/// each other.
+void check_turn(const std::vector<CaptureFrame>& frames, const FrameAngles& turn,
+                const CaptureOptions& options, std::vector<std::string>& warnings);
 
 }  // namespace sateen

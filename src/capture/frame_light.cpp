@@ -3,14 +3,17 @@
 
 #include <fmt/format.h>
 
+#include "sateen/capture/used_frames.h"
+
 namespace sateen {
 
 Photometry find_frame_light(std::vector<FrameNotes>& notes, const FirstLook& look, int height,
                             std::vector<CaptureFrame>& frames, std::vector<std::string>& warnings) {
+  const std::vector<std::size_t> used = used_frames(frames);
   std::vector<std::vector<Vec3f>> samples;
-  for (FrameNotes& note : notes) samples.push_back(std::move(note.still));
+  for (const std::size_t i : used) samples.push_back(std::move(notes[i].still));
   Photometry photometry = solve_photometry(samples, look.still, height);
-  for (std::size_t i = 0; i < frames.size(); ++i) frames[i].gain = photometry.gain[i];
+  for (std::size_t k = 0; k < used.size(); ++k) frames[used[k]].gain = photometry.gain[k];
   if (!photometry.measured) {
     warnings.emplace_back(
         "too little of the picture stands still and is lit, so exposure drift was not removed. Leave some "

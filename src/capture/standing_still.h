@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -9,9 +10,8 @@
 
 namespace sateen {
 
-/// A stand in front of the sphere does not turn: it is no more active than the background. Makes such texels
-/// invisible in `points` (one for each texel of `map`) and warns of them.
-void hide_what_stands_still(const RectifyMap& map, const FirstLook& look, std::vector<SeenPoint>& points,
-                            std::vector<std::string>& warnings);
+/// A stand in front of the sphere does not turn: where it reaches in from the outline, the picture is no more
+/// active than the background. Warns of it. Empty when nothing stands in front.
+StillMask find_stand(const FirstLook& look, std::vector<std::string>& warnings);
 
 }  // namespace sateen

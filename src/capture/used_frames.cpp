@@ -16,9 +16,25 @@ std::vector<std::size_t> used_frames(const std::vector<CaptureFrame>& frames) {
   return indices;
 }
 
+namespace {
+
+/// Mean green light of what stands still; clipped points count as white.
+double still_light(const FrameNotes& note) {
+  double sum = 0;
+  for (const Vec3f& light : note.still) sum += light.y() < 0 ? 1 : static_cast<double>(light.y());
+  return note.still.empty() ? 1 : sum / static_cast<double>(note.still.size());
+}
+
+}  // namespace
+
 void drop_blurred(const std::vector<FrameNotes>& notes, std::vector<CaptureFrame>& frames) {
   std::vector<double> sharpness;
-  for (const FrameNotes& note : notes) sharpness.push_back(note.patch.sharpness);
+  std::vector<double> light;
+  for (const FrameNotes& note : notes) {
+    sharpness.push_back(note.patch.sharpness);
+    light.push_back(still_light(note));
+  }
+  const double bright = median(light);
   const double typical = std::max(1e-9, median(sharpness));
   for (std::size_t i = 0; i < notes.size(); ++i) {
     frames[i].sharpness = sharpness[i] / typical;
@@ -27,6 +43,7 @@ void drop_blurred(const std::vector<FrameNotes>& notes, std::vector<CaptureFrame
     for (std::size_t j = i > 4 ? i - 4 : 0; j < std::min(notes.size(), i + 5); ++j)
       near.push_back(sharpness[j]);
     if (sharpness[i] < 0.6 * median(near)) frames[i].dropped = "blurred";
+    if (light[i] < 0.1 * bright) frames[i].dropped = "much darker than the others";
   }
 }
 
