@@ -17,6 +17,7 @@ struct Arguments {
 
 void run(const Arguments& arguments) {
   CaptureOptions options = capture_options(arguments.capture);
+  take_stage_angles(arguments.capture, arguments.inputs, options);
   options.progress = progress_bar("capture");
   CaptureResult result = build_capture(arguments.inputs, options);
   result.table.provenance["program"] = "sateen " SATEEN_VERSION;

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <cmath>
 #include <iostream>
 
 #include <fmt/format.h>
@@ -17,14 +18,16 @@ struct Arguments {
   LiveOptions live;
   GrblOptions grbl;
   std::string stage = "manual";
-  int camera = 0;
+  std::string camera = "0";
   int settle = 300;
+  double turn_seconds = 0;
   std::filesystem::path output;
   CaptureArguments capture;
 };
 
 std::unique_ptr<Stage> open_stage(const Arguments& arguments) {
-  if (arguments.stage == "continuous") return continuous_stage();
+  if (arguments.stage == "continuous")
+    return continuous_stage(std::chrono::milliseconds(std::llround(arguments.turn_seconds * 1000)));
   if (arguments.stage == "manual") {
     return manual_stage([](const std::string& text) {
       fmt::print(stderr, "{}: ", text);
@@ -39,7 +42,7 @@ std::unique_ptr<Stage> open_stage(const Arguments& arguments) {
 }
 
 void run(const Arguments& arguments) {
-  const CaptureOptions options = capture_options(arguments.capture);
+  CaptureOptions options = capture_options(arguments.capture);
   const auto stage = open_stage(arguments);
   const auto camera = open_live_camera(arguments.camera);
   for (const std::string& warning : camera->warnings()) warn(warning);
@@ -49,6 +52,7 @@ void run(const Arguments& arguments) {
   if (shot.found > 0)
     warn(fmt::format("{} frames of an earlier capture were kept, {} taken", shot.found, shot.taken));
   if (arguments.output.empty()) return;
+  take_stage_angles(arguments.capture, {live.folder}, options);
   CaptureResult result = build_capture({live.folder}, options);
   result.table.provenance["program"] = "sateen " SATEEN_VERSION;
   write_amc(arguments.output, result.table);
@@ -68,8 +72,8 @@ void add_capture_live(CLI::App& parent) {
       ->required();
   command->add_option("-o,--output", arguments->output,
                       "The AMC to build when all frames are there; without it only shoot");
-  command->add_option("--camera", arguments->camera, "Number of the camera (/dev/videoN)")
-      ->check(CLI::NonNegativeNumber);
+  command->add_option("--camera", arguments->camera,
+                      "Number of the camera (/dev/videoN), or a video whose frames stand in for one");
   command->add_option("--frames", arguments->live.frames, "Frames over one full turn")
       ->check(CLI::Range(12, 4096));
   command
@@ -80,6 +84,10 @@ void add_capture_live(CLI::App& parent) {
             name == "manual" || name == "continuous" || (name.starts_with("grbl:") && name.size() > 5);
         return known ? std::string() : "must be grbl:DEVICE, manual or continuous";
       });
+  command
+      ->add_option("--turn-seconds", arguments->turn_seconds,
+                   "What one turn of a continuous stage takes; 0: as many frames as the camera gives")
+      ->check(CLI::Range(0.0, 86400.0));
   const auto grbl = "GRBL stage";
   command->add_option("--baud", arguments->grbl.baud, "Speed of the serial line")->group(grbl);
   command->add_option("--stage-axis", arguments->grbl.axis, "The axis that turns")->group(grbl);

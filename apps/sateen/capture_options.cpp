@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "command.h"
+#include "sateen/capture/live.h"
 #include "sateen/capture/report.h"
 #include "sateen/core/error.h"
 #include "sateen/io/file.h"
@@ -92,10 +93,11 @@ void add_capture_options(CLI::App& command, CaptureArguments& a) {
 
   const auto turning = "Turning";
   command
-      .add_option("--angles", a.angles,
-                  "How far each frame is turned: pictures (found out), equal (one full turn in equal steps), "
-                  "or a text file "
-                  "of degrees, counter-clockwise")
+      .add_option(
+          "--angles", a.angles,
+          "How far each frame is turned: pictures (found out), equal (one full turn in equal steps), a "
+          "text file of degrees, counter-clockwise, or auto (what the stage of a live capture knew, "
+          "otherwise pictures)")
       ->group(turning);
   command.add_option("--direction", a.direction, "Of equal steps, as the picture shows it")
       ->check(CLI::IsMember({"ccw", "cw"}))
@@ -168,7 +170,7 @@ CaptureOptions capture_options(const CaptureArguments& a) {
   if (a.angles == "equal") {
     o.angle_source = AngleSource::equal;
     o.clockwise = a.direction == "cw";
-  } else if (a.angles != "pictures") {
+  } else if (a.angles != "pictures" && a.angles != "auto") {
     o.angle_source = AngleSource::given;
     for (const double angle : read_numbers(a.angles)) o.angles.push_back(radians(angle));
   }
@@ -187,6 +189,15 @@ CaptureOptions capture_options(const CaptureArguments& a) {
     o.zero_angle = radians(a.from_weave);
   }
   return o;
+}
+
+void take_stage_angles(const CaptureArguments& arguments, const std::vector<std::filesystem::path>& inputs,
+                       CaptureOptions& options) {
+  std::error_code code;
+  if (arguments.angles != "auto" || inputs.size() != 1 || !std::filesystem::is_directory(inputs[0], code))
+    return;
+  for (const double angle : stage_angles(inputs[0])) options.angles.push_back(radians(angle));
+  if (!options.angles.empty()) options.angle_source = AngleSource::given;
 }
 
 void report_capture(const CaptureArguments& arguments, const std::filesystem::path& output,

@@ -17,7 +17,7 @@ struct CaptureArguments {
   CaptureOptions options;
   std::string symmetry = "auto";
   std::string encoding = "half";
-  std::string angles = "pictures";
+  std::string angles = "auto";
   std::string direction = "ccw";
   std::string response = "auto";
   std::string perspective = "eye";
@@ -39,6 +39,10 @@ void add_capture_options(CLI::App& command, CaptureArguments& arguments);
 
 /// The library's options from the parsed ones. Throws Error for files that are wrong.
 CaptureOptions capture_options(const CaptureArguments& arguments);
+
+/// With --angles auto, what the stage of a live capture left in its folder, if that is the only input.
+void take_stage_angles(const CaptureArguments& arguments, const std::vector<std::filesystem::path>& inputs,
+                       CaptureOptions& options);
 
 /// Warnings on stderr, the light of a mirror ball beside `output`, the report if a folder for it was named.
 void report_capture(const CaptureArguments& arguments, const std::filesystem::path& output,

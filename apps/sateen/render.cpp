@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <filesystem>
+#include <optional>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -34,6 +35,7 @@ struct Arguments {
   int turntable = 0;
   double frames_per_second = 25;
   std::vector<std::string> aovs;
+  std::string compare;
 };
 
 Camera camera(const Arguments& arguments) {
@@ -88,6 +90,28 @@ void write_aovs(const Frame& frame, const fs::path& picture, const std::vector<s
   }
 }
 
+/// The same scene in the material to compare with, if there is one.
+std::optional<Renderer> other_renderer(const Arguments& arguments) {
+  if (arguments.compare.empty()) return std::nullopt;
+  SceneArguments scene = arguments.scene;
+  scene.materials = {arguments.compare};
+  return std::make_optional<Renderer>(load(scene));
+}
+
+/// Two pictures of the same size in one.
+Image beside(const Image& left, const Image& right) {
+  Image both(2 * left.width, left.height, left.channels);
+  for (int y = 0; y < left.height; ++y) {
+    for (int x = 0; x < left.width; ++x) {
+      for (int c = 0; c < left.channels; ++c) {
+        both.at(x, y, c) = left.at(x, y, c);
+        both.at(left.width + x, y, c) = right.at(x, y, c);
+      }
+    }
+  }
+  return both;
+}
+
 void check_aovs(const Arguments& arguments) {
   for (const std::string& name : arguments.aovs) {
     if (std::ranges::count(aov_names(), name) == 0) {
@@ -113,11 +137,15 @@ void run(const Arguments& arguments) {
                                   static_cast<double>(settings.width) / settings.height);
   const gpu::Context context;
   const Renderer renderer(scene);
+  const std::optional<Renderer> other = other_renderer(arguments);
   const int count = static_cast<int>(views.size());
   const Progress progress = progress_bar("Drawing");
   const auto draw = [&](int i) {
-    return renderer.render(views[static_cast<std::size_t>(i)], settings,
-                           [&, i](double fraction) { report(progress, (i + fraction) / count); });
+    const View& view = views[static_cast<std::size_t>(i)];
+    Frame frame = renderer.render(view, settings,
+                                  [&, i](double fraction) { report(progress, (i + fraction) / count); });
+    if (other) frame.colour = beside(frame.colour, other->render(view, settings).colour);
+    return frame;
   };
   if (film) {
     write_video(arguments.output, count, arguments.frames_per_second, [&](int i) { return draw(i).colour; });
@@ -147,6 +175,8 @@ void add_render(CLI::App& parent) {
                    "(.mp4)")
       ->required();
   command->add_option("--size", arguments->size, "Width x height in pixels");
+  command->add_option("--compare", arguments->compare,
+                      "Another material: the same is drawn in it, to the right in the same picture");
   command
       ->add_option("--samples", arguments->samples, "N x N samples in each pixel, averaged in linear light")
       ->check(CLI::Range(1, 16));

@@ -25,6 +25,9 @@ bool is_video_file(const fs::path& path) {
   return std::ranges::find(known, extension_of(path)) != known.end();
 }
 
+/// A promise of fewer frames is sooner checked than believed: some containers do not say.
+constexpr int kFewestPromised = 32;
+
 int count_by_decoding(const fs::path& path) {
   VideoReader reader(path);
   int frames = 0;
@@ -47,14 +50,8 @@ FrameSource FrameSource::open(const std::vector<fs::path>& inputs, const FrameSo
     source.files_ = inputs;
     source.width_ = reader.width();
     source.height_ = reader.height();
-    int frames = reader.promised_frames();
-    if (frames < 1) frames = count_by_decoding(inputs[0]);
-    source.stride_ = std::max(1, (frames + options.max_frames - 1) / options.max_frames);
-    source.count_ = (frames + source.stride_ - 1) / source.stride_;
-    if (source.stride_ > 1) {
-      source.warnings_.push_back(
-          fmt::format("the video has {} frames; every {}th is used (--max-frames)", frames, source.stride_));
-    }
+    source.counted_ = reader.promised_frames() < kFewestPromised;
+    source.spread(source.counted_ ? count_by_decoding(inputs[0]) : reader.promised_frames());
     return source;
   }
   for (const fs::path& input : inputs) {
@@ -67,18 +64,38 @@ FrameSource FrameSource::open(const std::vector<fs::path>& inputs, const FrameSo
   const auto brackets = find_brackets(source.files_);
   source.exposure_times_ = brackets;
   const std::size_t group = std::max<std::size_t>(1, brackets.size());
-  source.count_ = static_cast<int>(source.files_.size() / group);
-  const int over = (source.count_ + options.max_frames - 1) / std::max(1, options.max_frames);
-  if (over > 1) {
-    source.stride_ = over;
-    source.count_ = (source.count_ + over - 1) / over;
-    source.warnings_.push_back(
-        fmt::format("{} photographs given; every {}th is used (--max-frames)", source.files_.size(), over));
-  }
+  source.counted_ = true;
+  source.spread(static_cast<int>(source.files_.size() / group));
   const Frame first = source.decode(0);
   source.width_ = first.width();
   source.height_ = first.height();
   return source;
+}
+
+void FrameSource::spread(int frames) {
+  frames_ = frames;
+  stride_ = std::max(1, (frames + options_.max_frames - 1) / options_.max_frames);
+  count_ = (frames + stride_ - 1) / stride_;
+}
+
+void FrameSource::found_end(int frames) {
+  if (counted_) return;
+  counted_ = true;
+  // A promise that rounds a duration is a frame or two off.
+  if (frames + 2 < frames_) {
+    damage_ = fmt::format(
+        "{}: promises {} frames, but only {} can be decoded: its end is damaged or its index is wrong",
+        files_[0].filename().string(), frames_, frames);
+  }
+  spread(frames);
+}
+
+std::vector<std::string> FrameSource::warnings() const {
+  std::vector<std::string> warnings;
+  if (!damage_.empty()) warnings.push_back(damage_);
+  if (stride_ > 1)
+    warnings.push_back(fmt::format("of {} frames every {}th is used (--max-frames)", frames_, stride_));
+  return warnings;
 }
 
 const fs::path& FrameSource::path(int index) const {
@@ -96,7 +113,8 @@ Frame FrameSource::decode(int index) const {
   const auto one = [&](const fs::path& file) {
     const std::string extension = extension_of(file);
     const bool floats = extension == ".exr" || extension == ".hdr";
-    if (!floats && read_image_info(file).bits == 8) return Frame(read_picture8(file), response_);
+    const bool jpeg = extension == ".jpg" || extension == ".jpeg";
+    if (jpeg || (!floats && read_image_info(file).bits == 8)) return Frame(read_picture8(file), response_);
     Image image = with_channels(read_data(file), 3);
     if (!floats || options_.response) {
       for (float& v : image.data) v = response_(v);
@@ -127,6 +145,9 @@ void FrameSource::visit(std::span<const int> indices, const std::function<void(i
       tbb::make_filter<void, Item>(tbb::filter_mode::serial_in_order, [&](tbb::flow_control& control) {
         Item item;
         if (next >= indices.size()) {
+          // Only the end of a video tells how long it is.
+          while (reader && !counted_ && reader->skip()) ++position;
+          found_end(position);
           control.stop();
           return item;
         }
@@ -141,14 +162,7 @@ void FrameSource::visit(std::span<const int> indices, const std::function<void(i
         more = more && reader->next(item.picture);
         position += more ? 1 : 0;
         if (!more) {
-          const int readable = (position + stride_ - 1) / stride_;
-          if (readable < count_) {
-            warnings_.push_back(
-                fmt::format("{}: promises {} frames, but only {} can be decoded: its end is "
-                            "damaged or its index is wrong",
-                            files_[0].filename().string(), count_ * stride_, position));
-            count_ = readable;
-          }
+          found_end(position);
           control.stop();
         }
         return item;

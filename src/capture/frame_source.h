@@ -27,15 +27,17 @@ class FrameSource {
   static FrameSource open(const std::vector<std::filesystem::path>& inputs,
                           const FrameSourceOptions& options);
 
-  /// An upper bound for a video whose index lies, until it was visited once.
+  /// Of a video what its index promises, until it was visited once.
   int count() const { return count_; }
+  /// Every how many frames of the files one is used.
+  int stride() const { return stride_; }
   int width() const { return width_; }
   int height() const { return height_; }
   bool is_video() const { return video_; }
   /// The file's name, for a video with #frame behind it.
   std::string name(int index) const;
   const std::filesystem::path& path(int index) const;
-  const std::vector<std::string>& warnings() const { return warnings_; }
+  std::vector<std::string> warnings() const;
 
   /// Calls body(index, frame) for each of `indices` (ascending), from several threads at once, with only a
   /// few frames in memory at any time. Throws what decoding and `body` throw; an Error for a picture of
@@ -47,17 +49,21 @@ class FrameSource {
 
  private:
   Frame decode(int index) const;
+  void spread(int frames);     // the used ones over all `frames` there are
+  void found_end(int frames);  // of a video, after `frames`
 
   std::vector<std::filesystem::path> files_;
   std::vector<double> exposure_times_;  ///< of one bracketed group, seconds; one entry: no brackets
   bool video_ = false;
+  int frames_ = 0;        // in the files; of a video not counted yet: promised
+  bool counted_ = false;  // or known otherwise
   int stride_ = 1;
   int count_ = 0;
   int width_ = 0;
   int height_ = 0;
   FrameSourceOptions options_;
   Response response_;
-  std::vector<std::string> warnings_;
+  std::string damage_;
 };
 
 }  // namespace sateen

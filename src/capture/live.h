@@ -23,9 +23,10 @@ class LiveCamera {
   virtual std::vector<std::string> warnings() const { return {}; }
 };
 
-/// Camera `index` through V4L2, exposure and white balance fixed where the driver allows. Throws Error when
-/// there is none.
-std::unique_ptr<LiveCamera> open_live_camera(int index);
+/// A number is camera /dev/videoN through V4L2, exposure and white balance fixed where the driver allows.
+/// Anything else is a video file that stands in for a camera, one frame a shot. Throws Error when there is
+/// none.
+std::unique_ptr<LiveCamera> open_live_camera(const std::string& name);
 
 struct LiveOptions {
   int frames = 128;
@@ -36,8 +37,7 @@ struct LiveOptions {
 struct LiveResult {
   int taken = 0;                ///< now
   int found = 0;                ///< frames an interrupted capture had left
-  bool angles_known = false;    ///< the stage's angles are in capture.json, degrees
-  std::vector<double> degrees;  ///< per frame, when known
+  std::vector<double> degrees;  ///< per frame, as in capture.json; empty unless the stage knew them all
 };
 
 /// Moves, waits, shoots, next: `frames` pictures over one full turn. A capture interrupted at any moment
@@ -45,5 +45,9 @@ struct LiveResult {
 /// standing where the last was taken. Throws Error from stage and camera, for a full disk, and when the
 /// folder holds a capture of another number of frames.
 LiveResult capture_live(Stage& stage, LiveCamera& camera, const LiveOptions& options);
+
+/// The angles (degrees, counter-clockwise, one a frame) that a live capture left in its folder; empty when
+/// there is none or its stage did not know them. Throws Error when capture.json is damaged.
+std::vector<double> stage_angles(const std::filesystem::path& folder);
 
 }  // namespace sateen

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sateen/capture/median.h"
 #include "sateen/core/error.h"
 #include "sateen/core/parallel.h"
 
@@ -116,6 +117,38 @@ OutlineOffset fit_offset(const std::vector<EdgePoint>& edges, bool fixed_radius)
   return result;
 }
 
+/// The mean with up to `reach` neighbours on both sides, cyclic or as far as there are any.
+void box_blur(std::vector<double>& values, int reach, bool cyclic) {
+  const auto n = static_cast<int>(values.size());
+  const std::vector<double> original = values;
+  for (int i = 0; i < n; ++i) {
+    double sum = 0;
+    int count = 0;
+    for (int j = i - reach; j <= i + reach; ++j) {
+      if (!cyclic && (j < 0 || j >= n)) continue;
+      sum += original[static_cast<std::size_t>((j + n) % n)];
+      ++count;
+    }
+    values[static_cast<std::size_t>(i)] = sum / count;
+  }
+}
+
+/// Averages profiles (one per azimuth) with their neighbours, and each along itself: the more, the noisier
+/// the picture. The outline lies at about the same place in all of them.
+void quieten(std::vector<std::vector<double>>& profiles, double noise) {
+  const int reach = noise < 1.8 ? 0 : noise < 3 ? 1 : noise < 4.5 ? 2 : 3;
+  if (reach == 0) return;
+  std::vector<double> ring(profiles.size());
+  for (std::size_t j = 0; j < profiles[0].size(); ++j) {
+    for (std::size_t i = 0; i < ring.size(); ++i) ring[i] = profiles[i][j];
+    box_blur(ring, reach, true);
+    for (std::size_t i = 0; i < ring.size(); ++i) profiles[i][j] = ring[i];
+  }
+  for (std::vector<double>& profile : profiles) {
+    for (int pass = 0; pass < 2; ++pass) box_blur(profile, 1, false);
+  }
+}
+
 }  // namespace
 
 OutlineOffset measure_outline(const GreyPicture& frame, double gain, const Plate& plate, const Camera& camera,
@@ -123,15 +156,15 @@ OutlineOffset measure_outline(const GreyPicture& frame, double gain, const Plate
   const Vec2 centre = sphere.centre_pixel(camera);
   const auto n = static_cast<std::size_t>(2 * reach / kStep) + 1;
   const double light_gain = gain * gain;
-  std::vector<EdgePoint> edges;
-  std::vector<double> difference(n);
-  for (int i = 0; i < kAzimuths; ++i) {
-    EdgePoint edge;
-    const Vec2 rim = sphere.outline_pixel(camera, 2 * kPi * i / kAzimuths);
-    edge.outward = (rim - centre).normalized();
+  std::vector<std::vector<double>> profiles(kAzimuths, std::vector<double>(n));
+  std::vector<Vec2> outward(kAzimuths);
+  for (std::size_t i = 0; i < profiles.size(); ++i) {
+    std::vector<double>& difference = profiles[i];
+    const Vec2 rim = sphere.outline_pixel(camera, 2 * kPi * static_cast<double>(i) / kAzimuths);
+    outward[i] = (rim - centre).normalized();
     double background = -1;
     for (std::size_t j = n; j-- > 0;) {
-      const Vec2 p = rim + (static_cast<double>(j) * kStep - reach) * edge.outward;
+      const Vec2 p = rim + (static_cast<double>(j) * kStep - reach) * outward[i];
       const double known = plate_at(plate, p.x(), p.y());
       // Behind the sphere the background is unknown: it goes on as it was last seen.
       if (known >= 0) background = known;
@@ -139,11 +172,17 @@ OutlineOffset measure_outline(const GreyPicture& frame, double gain, const Plate
     }
     if (background < 0) {
       for (std::size_t j = 0; j < n; ++j) {
-        const Vec2 p = rim + (static_cast<double>(j) * kStep - reach) * edge.outward;
+        const Vec2 p = rim + (static_cast<double>(j) * kStep - reach) * outward[i];
         difference[j] = light_at(frame, p.x(), p.y()) / light_gain;
       }
     }
-    if (find_edge(difference, reach, edge) && edge.strength > 0.004) edges.push_back(edge);
+  }
+  quieten(profiles, plate.noise);
+  std::vector<EdgePoint> edges;
+  for (std::size_t i = 0; i < profiles.size(); ++i) {
+    EdgePoint edge;
+    edge.outward = outward[i];
+    if (find_edge(profiles[i], reach, edge) && edge.strength > 0.004) edges.push_back(edge);
   }
   return fit_offset(edges, fixed_radius);
 }
@@ -156,6 +195,7 @@ Plate background_plate(std::span<const GreyPicture> frames, const Scouting& scou
   Plate plate;
   plate.width = frames[0].width;
   plate.height = frames[0].height;
+  plate.noise = scouting.noise;
   plate.light.assign(frames[0].codes.size(), -1);
   Vec2 middle(0, 0);
   for (const Vec2& c : centres) middle += c / static_cast<double>(centres.size());
@@ -180,12 +220,6 @@ Plate background_plate(std::span<const GreyPicture> frames, const Scouting& scou
     }
   });
   return plate;
-}
-
-double median(std::vector<double> values) {
-  const auto half = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::ranges::nth_element(values, half);
-  return *half;
 }
 
 }  // namespace

@@ -14,6 +14,7 @@ struct Plate {
   int width = 0;
   int height = 0;
   std::vector<float> light;  ///< -1: hidden in every frame
+  double noise = 0;          ///< codes, of a single frame (Scouting::noise)
 };
 
 /// Where one frame shows the outline, relative to a predicted one.
@@ -25,8 +26,9 @@ struct OutlineOffset {
 };
 
 /// Searches the outline within `reach` pixels of where `sphere` predicts it, along normals, as the steepest
-/// change of the difference to the background plate, to a fraction of a pixel. `gain` is of the codes, as in
-/// Scouting. With `fixed_radius` only the shift is fitted.
+/// change of the difference to the background plate, to a fraction of a pixel. Noisy pictures are averaged
+/// along the outline first. `gain` is of the codes, as in Scouting. With `fixed_radius` only the shift is
+/// fitted.
 OutlineOffset measure_outline(const GreyPicture& frame, double gain, const Plate& plate, const Camera& camera,
                               const SphereView& sphere, double reach, bool fixed_radius);
 

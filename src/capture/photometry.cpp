@@ -4,18 +4,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sateen/capture/median.h"
 #include "sateen/core/parallel.h"
 
 namespace sateen {
 namespace {
 
 constexpr std::size_t kFewest = 60;  // still points below which nothing is corrected
-
-double median(std::vector<double>& values) {
-  const auto half = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::ranges::nth_element(values, half);
-  return *half;
-}
 
 }  // namespace
 

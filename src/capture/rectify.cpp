@@ -54,14 +54,6 @@ RectifyMap::RectifyMap(const Camera& camera, const SphereView& mean, int size, T
   });
 }
 
-Vec2 RectifyMap::pixel(int x, int y) const {
-  const int fine = size_ * samples_;
-  const int at = samples_ / 2;
-  const Sample& sample = grid_[static_cast<std::size_t>(y * samples_ + at) * static_cast<std::size_t>(fine) +
-                               static_cast<std::size_t>(x * samples_ + at)];
-  return {static_cast<double>(sample.x), static_cast<double>(sample.y)};
-}
-
 RectifiedFrame rectify(const RectifyMap& map, const Frame& frame, const Vec2& centre, const Vec3& gain) {
   const int size = map.size_;
   const int n = map.samples_;
@@ -69,6 +61,7 @@ RectifiedFrame rectify(const RectifyMap& map, const Frame& frame, const Vec2& ce
   const auto texels = static_cast<std::size_t>(size) * static_cast<std::size_t>(size);
   const Vec2f shift = (centre - map.centre_).cast<float>();
   const Vec3f scale = gain.cwiseInverse().cast<float>();
+  const bool masked = map.mask_.width > 0;
   RectifiedFrame result;
   result.size = size;
   result.rgb.resize(texels * 3);
@@ -87,6 +80,7 @@ RectifiedFrame rectify(const RectifyMap& map, const Frame& frame, const Vec2& ce
           if (!s.seen) continue;
           const float px = s.x + shift.x() * s.along_x_x + shift.y() * s.along_y_x;
           const float py = s.y + shift.x() * s.along_x_y + shift.y() * s.along_y_y;
+          if (masked && map.mask_.hides(px, py)) continue;
           sum += frame.rgb_at(static_cast<double>(px), static_cast<double>(py));
           const int ix = std::clamp(static_cast<int>(px), 0, frame.width() - 1);
           const int iy = std::clamp(static_cast<int>(py), 0, frame.height() - 1);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "sateen/capture/frame.h"
@@ -10,6 +11,22 @@
 namespace sateen {
 
 struct RectifiedFrame;
+
+/// Pixels that do not show the sphere though they lie inside its outline: a stand in front.
+struct StillMask {
+  int width = 0;  ///< 0: none
+  int height = 0;
+  int factor = 1;                   ///< picture pixels per pixel of the mask
+  std::vector<std::uint8_t> still;  ///< 1: stands still
+
+  bool hides(float x, float y) const {
+    const auto u = static_cast<int>(x) / factor;
+    const auto v = static_cast<int>(y) / factor;
+    return u >= 0 && v >= 0 && u < width && v < height &&
+           still[static_cast<std::size_t>(v) * static_cast<std::size_t>(width) +
+                 static_cast<std::size_t>(u)] != 0;
+  }
+};
 
 /// Where in the picture each texel of a size x size table slice is seen (row 0 on top). Made once for the
 /// mean sphere; a frame whose sphere is a little beside it moves the samples along.
@@ -25,8 +42,8 @@ class RectifyMap {
     return points_[static_cast<std::size_t>(y) * static_cast<std::size_t>(size_) +
                    static_cast<std::size_t>(x)];
   }
-  /// Pixel of the texel's centre for the mean sphere.
-  Vec2 pixel(int x, int y) const;
+  /// Samples that fall on it in a frame are not seen there.
+  void hide(StillMask mask) { mask_ = std::move(mask); }
 
  private:
   struct Sample {
@@ -41,6 +58,7 @@ class RectifyMap {
   Vec2 centre_{0, 0};
   std::vector<Sample> grid_;
   std::vector<SeenPoint> points_;
+  StillMask mask_;
 
   friend RectifiedFrame rectify(const RectifyMap& map, const Frame& frame, const Vec2& centre,
                                 const Vec3& gain);

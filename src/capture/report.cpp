@@ -73,7 +73,7 @@ std::string chart(const CaptureResult& result, const std::string& title, const s
   std::string dropped;
   const double n = static_cast<double>(std::max<std::size_t>(2, result.frames.size()));
   for (std::size_t i = 0; i < result.frames.size(); ++i) {
-    const double x = 40 + 400 * static_cast<double>(i) / (n - 1);
+    const double x = 64 + 376 * static_cast<double>(i) / (n - 1);
     if (!result.frames[i].dropped.empty()) {
       dropped += fmt::format("<line x1='{0:.1f}' x2='{0:.1f}' y1='16' y2='104' class='drop'/>", x);
       continue;
@@ -82,9 +82,9 @@ std::string chart(const CaptureResult& result, const std::string& title, const s
                           100 - 80 * (value(result.frames[i]) - low) / range);
   }
   return fmt::format(
-      "<figure><svg viewBox='0 0 450 120' role='img' aria-label='{0}'><rect x='40' y='16' width='400' "
+      "<figure><svg viewBox='0 0 450 120' role='img' aria-label='{0}'><rect x='64' y='16' width='376' "
       "height='88' "
-      "class='frame'/>{1}{2}<text x='36' y='24' text-anchor='end'>{3:.4g}</text><text x='36' y='104' "
+      "class='frame'/>{1}{2}<text x='58' y='27' text-anchor='end'>{3:.4g}</text><text x='58' y='104' "
       "text-anchor='end'>{4:.4g}</text></svg><figcaption>{0} ({5}) over the frames</figcaption></figure>",
       title, dropped, points, high, low, unit);
 }
@@ -156,8 +156,8 @@ ul{padding-left:1.2rem}li{margin:.3rem 0}
 svg,img{max-width:100%}.wide{width:100%;background:#000}
 .outline{fill:none;stroke:#3f6;stroke-width:1.5}.axis{fill:none;stroke:#fc3;stroke-width:2}
 .tangent{fill:#f4a;stroke:#f4a;stroke-width:2}
-.frame{fill:#fff;stroke:#bbb}.drop{stroke:#e77}circle{fill:#26c}text{font-size:10px;fill:#555}
-.row{display:flex;flex-wrap:wrap;gap:1rem}figure{margin:0;flex:1 1 280px}figcaption{font-size:.85rem;color:#555}
+.frame{fill:#fff;stroke:#bbb}.drop{stroke:#e77}circle{fill:#26c}text{font-size:14px;fill:#555}
+.row{display:grid;grid-template-columns:repeat(auto-fit,minmax(min(100%,400px),1fr));gap:1rem}figure{margin:0}figcaption{font-size:.85rem;color:#555}
 table{border-collapse:collapse}td,th{padding:.15rem .8rem .15rem 0;text-align:left;vertical-align:top}
 )";
 
@@ -174,9 +174,10 @@ std::string facts(const CaptureResult& result) {
       fmt::format("centre ({:.1f}, {:.1f}), radius {:.1f} pixels; it wobbles by {:.1f}, {:.2f} unexplained",
                   centre.x(), centre.y(), result.sphere.radius_pixel(result.camera), result.wobble,
                   result.wobble_rms));
-  row("Turn", fmt::format("{:.1f} degrees {}, {}", std::abs(degrees(result.turned)),
-                          result.turned >= 0 ? "counter-clockwise" : "clockwise",
-                          result.equal_steps ? "in equal steps" : "in unequal steps"));
+  row("Turn",
+      fmt::format("{:.1f} degrees {} from the first to the last frame, {}", std::abs(degrees(result.turned)),
+                  result.turned >= 0 ? "counter-clockwise" : "clockwise",
+                  result.equal_steps ? "in equal steps" : "in unequal steps"));
   row("Tangent", result.zero_source);
   row("Lens",
       fmt::format("focal length {:.0f} pixels ({})", result.camera.focal.x(), result.camera.focal_source));

@@ -283,7 +283,8 @@ Scouting find_sphere(std::span<const GreyPicture> frames) {
   // shadow under a low one: the threshold with the best circle wins.
   Blob best;
   std::vector<Blob> others;
-  for (const double times : {4.0, 7.0, 12.0}) {
+  // Noise that hides the weak parts hides faint shadows as well: only then it pays to go closer to it.
+  for (const double times : {s.noise > 1.5 ? 2.0 : 4.0, 4.0, 7.0, 12.0}) {
     const std::vector<Blob> blobs = active_blobs(s, width, height, times * s.noise);
     for (const Blob& blob : blobs) {
       const bool round = blob.circle.support > 0.4 && blob.filled > 0.35;

@@ -82,8 +82,8 @@ class GrblStage final : public Stage {
     if (text.starts_with("Grbl")) {
       throw Error(
           fmt::format("{}: the controller restarted in the middle of the capture and lost its position "
-                      "(power, a touched reset?); turn the "
-                      "stage back to its start and resume",
+                      "(power, a touched reset?). Start again in another folder, or resume and let the "
+                      "pictures tell the angles: --angles pictures",
                       device_));
     }
   }
@@ -148,8 +148,18 @@ class ManualStage final : public Stage {
 
 class ContinuousStage final : public Stage {
  public:
-  void move_to(double) override {}
+  explicit ContinuousStage(std::chrono::milliseconds turn) : turn_(turn) {}
+  void move_to(double degrees) override {
+    const auto after = std::chrono::duration_cast<Clock::duration>(turn_ * (degrees / 360));
+    if (!start_) start_ = Clock::now() - after;
+    std::this_thread::sleep_until(*start_ + after);
+  }
   bool knows_angles() const override { return false; }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  std::chrono::milliseconds turn_;
+  std::optional<Clock::time_point> start_;
 };
 
 }  // namespace
@@ -162,8 +172,8 @@ std::unique_ptr<Stage> manual_stage(std::function<void(const std::string&)> prom
   return std::make_unique<ManualStage>(std::move(prompt));
 }
 
-std::unique_ptr<Stage> continuous_stage() {
-  return std::make_unique<ContinuousStage>();
+std::unique_ptr<Stage> continuous_stage(std::chrono::milliseconds turn) {
+  return std::make_unique<ContinuousStage>(turn);
 }
 
 }  // namespace sateen

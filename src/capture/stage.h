@@ -42,7 +42,8 @@ std::unique_ptr<Stage> open_grbl_stage(const std::string& device, const GrblOpti
 /// A hand: `prompt` is called with what to do and returns when it is done.
 std::unique_ptr<Stage> manual_stage(std::function<void(const std::string&)> prompt);
 
-/// Something that turns by itself.
-std::unique_ptr<Stage> continuous_stage();
+/// Something that turns by itself, once in `turn`; 0: unknown, frames follow each other as fast as the camera
+/// gives them.
+std::unique_ptr<Stage> continuous_stage(std::chrono::milliseconds turn);
 
 }  // namespace sateen

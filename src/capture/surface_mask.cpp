@@ -17,7 +17,8 @@ constexpr double kNear = 0.06;      // radians: neighbours closer than this may 
 constexpr double kFar = 0.40;       // radians: beyond, the shading has changed
 constexpr double kSmallest = 0.12;  // log light: below this it is the material's own unevenness
 
-double median(std::vector<float>& values) {
+/// The middle value; reorders.
+double middle_of(std::vector<float>& values) {
   const auto half = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::ranges::nth_element(values, half);
   return static_cast<double>(*half);
@@ -96,7 +97,7 @@ std::vector<std::int8_t> deviations(const RectifiedStack& stack, const SurfaceMa
             if (usable[g] == 1) around.push_back(light[g][c]);
           }
           if (around.size() < 3) continue;
-          const auto expected = static_cast<float>(median(around));
+          const auto expected = static_cast<float>(middle_of(around));
           if (expected < darkest) continue;
           const float deviation = std::clamp(light[f][c] - expected, -1.2f, 1.2f);
           result[(f * texels + i) * 3 + c] = static_cast<std::int8_t>(std::lround(deviation * 100));

@@ -35,11 +35,13 @@ struct Turning {
       strength;  ///< per patch: how much of the common surface's detail it shows; blurred ones less
   double confidence_floor = 0;  ///< correlation that chance alone reaches
   double step_error = 0;        ///< radians, rms of the last refinement
+  double contradiction = 0;     ///< radians: PolarPictures::contradiction
 };
 
 /// Finds every frame's angle by registering it with the surface all frames have in common, first about the
-/// middle of the disc, then with the axis free: each frame's small rotation is solved for (Lucas-Kanade on
-/// the sphere), the axis explains what they share. `axes` as in surface_patch.
+/// middle of the disc and, where neighbouring frames turn about another axis, about that; then with the axis
+/// free: each frame's small rotation is solved for (Lucas-Kanade on the sphere), the axis explains what they
+/// share. `axes` as in surface_patch.
 Turning find_turning(std::span<const SurfacePatch> patches, const Mat3& axes);
 
 /// The axis alone, when the angles (radians) are known from the stage; corrects each by what the pictures say

@@ -3,16 +3,9 @@
 
 #include <algorithm>
 
+#include "sateen/capture/median.h"
+
 namespace sateen {
-namespace {
-
-double median(std::vector<double> values) {
-  const auto half = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::ranges::nth_element(values, half);
-  return *half;
-}
-
-}  // namespace
 
 Wobble fit_wobble(const std::vector<Vec2>& centres, const std::vector<double>& angles) {
   Wobble wobble;

@@ -115,8 +115,9 @@ Vec3 Simulation::material(const Vec3& n, const Vec3& t) const {
   const double warp = std::exp(-std::pow(t.dot(h1) / 0.3, 2)) * std::max(0.0, n.dot(light));
   const double weft = std::exp(-std::pow(b.dot(h2) / 0.35, 2)) * std::max(0.0, n.dot(other));
   const double diffuse = 0.5 * (1 + n.dot(light));
-  return exposure * (Vec3(0.14, 0.08, 0.12) * (0.4 + diffuse) + Vec3(0.5, 0.3, 0.12) * warp +
-                     Vec3(0.1, 0.3, 0.45) * weft);
+  const Vec3 light_out = exposure * (Vec3(0.14, 0.08, 0.12) * (0.4 + diffuse) + Vec3(0.5, 0.3, 0.12) * warp +
+                                     Vec3(0.1, 0.3, 0.45) * weft);
+  return grey ? Vec3(Vec3::Constant(light_out.y())) : light_out;
 }
 
 Picture8 Simulation::render(int frame) const {
@@ -244,7 +245,11 @@ void Simulation::write(const std::filesystem::path& folder) const {
     Picture8 picture = render(i);
     cv::Mat rgb(height, width, CV_8UC3, picture.rgb.data());
     cv::Mat bgr;
-    cv::cvtColor(rgb, bgr, cv::COLOR_RGB2BGR);
+    if (grey) {
+      cv::extractChannel(rgb, bgr, 1);
+    } else {
+      cv::cvtColor(rgb, bgr, cv::COLOR_RGB2BGR);
+    }
     cv::imwrite((folder / fmt::format("frame_{:03}.png", i)).string(), bgr, {cv::IMWRITE_PNG_COMPRESSION, 1});
   }
 }

@@ -44,7 +44,8 @@ struct Simulation {
   Vec2 camera_move{0, 0};     // pixels by which the picture jumps half-way
   bool second_sphere = false;
   bool sphere = true;
-  int samples = 2;  // along each side of a pixel inside the sphere
+  bool grey = false;  // photographs without colour
+  int samples = 2;    // along each side of a pixel inside the sphere
   std::uint32_t seed = 7;
 
   Camera camera() const { return Camera::pinhole(width, height, focal); }

@@ -1,19 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "sateen/capture/stage.h"
 
-#include <atomic>
-#include <cmath>
-#include <csignal>
-#include <thread>
+#include <chrono>
+#include <random>
 
-#include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <poll.h>
-#include <stdlib.h>
-#include <sys/resource.h>
-#include <unistd.h>
 
+#include "capture/simulated_grbl.h"
+#include "io/full_disk.h"
 #include "sateen/capture/live.h"
 #include "sateen/core/error.h"
 #include "sateen/io/file.h"
@@ -23,97 +18,7 @@ namespace sateen {
 namespace {
 
 using std::chrono::milliseconds;
-
-/// A GRBL 1.1 controller at the other end of a pseudo-terminal, with faults on demand.
-class SimulatedGrbl {
- public:
-  std::atomic<bool> silent{false};
-  std::atomic<bool> slow{false};  // answers byte by byte
-  std::atomic<int> alarms{0};     // raised at the next moves
-  std::atomic<bool> restart_on_move{false};
-  std::atomic<bool> never_idle{false};
-  std::atomic<bool> refuse{false};
-  std::atomic<double> position{0};
-  std::atomic<int> moves{0};
-
-  SimulatedGrbl() : master_(posix_openpt(O_RDWR | O_NOCTTY)) {
-    grantpt(master_);
-    unlockpt(master_);
-    device_ = ptsname(master_);
-    keep_open_ = open(device_.c_str(), O_RDWR | O_NOCTTY);
-    thread_ = std::thread([this] { run(); });
-  }
-  ~SimulatedGrbl() {
-    stop_ = true;
-    thread_.join();
-    close(keep_open_);
-    close(master_);
-  }
-  const std::string& device() const { return device_; }
-
- private:
-  void say(const std::string& text) {
-    if (silent) return;
-    if (!slow) {
-      EXPECT_EQ(write(master_, text.data(), text.size()), static_cast<ssize_t>(text.size()));
-      return;
-    }
-    for (const char c : text) {
-      EXPECT_EQ(write(master_, &c, 1), 1);
-      std::this_thread::sleep_for(milliseconds(1));
-    }
-  }
-
-  void line(const std::string& text) {
-    if (text.starts_with("G1")) {
-      if (refuse) return say("error:9\r\n");
-      if (alarms > 0) {
-        --alarms;
-        return say("ALARM:1\r\n");
-      }
-      if (restart_on_move) return say("\r\nGrbl 1.1h ['$' for help]\r\n");
-      position = std::stod(text.substr(4));
-      ++moves;
-      running_ = 2;
-    }
-    if (text.starts_with("G92")) position = std::stod(text.substr(5));
-    if (text == "$X") say("[MSG:Caution: Unlocked]\r\n");
-    say("ok\r\n");
-  }
-
-  void run() {
-    std::string pending;
-    while (!stop_) {
-      pollfd wait{master_, POLLIN, 0};
-      if (poll(&wait, 1, 10) <= 0) continue;
-      char buffer[64];
-      const ssize_t n = read(master_, buffer, sizeof buffer);
-      for (ssize_t i = 0; i < n; ++i) {
-        const char c = buffer[i];
-        if (c == '\x18') {
-          pending.clear();
-          say("\r\nGrbl 1.1h ['$' for help]\r\n");
-        } else if (c == '?') {
-          const bool busy = never_idle || running_ > 0;
-          if (running_ > 0) --running_;
-          say(busy ? "<Run|MPos:1.000,0.000,0.000|FS:0,0>\r\n" : "<Idle|MPos:1.000,0.000,0.000|FS:0,0>\r\n");
-        } else if (c == '\n') {
-          line(pending);
-          pending.clear();
-        } else if (c != '\r') {
-          pending += c;
-        }
-      }
-    }
-  }
-
-  int master_;
-  int keep_open_ = -1;
-  int running_ = 0;
-  std::string device_;
-  std::atomic<bool> stop_{false};
-  std::thread thread_;
-};
+using test::SimulatedGrbl;
 
 GrblOptions quick() {
   GrblOptions options;
@@ -211,7 +116,8 @@ TEST(CaptureLive, ResumesWithoutLosingFrames) {
   const LiveResult result = capture_live(*again, camera, options);
   EXPECT_EQ(result.found, 5);
   EXPECT_EQ(result.taken, 7);
-  EXPECT_TRUE(result.angles_known);
+  EXPECT_EQ(result.degrees.size(), 12);
+  EXPECT_EQ(stage_angles(options.folder), result.degrees);
   EXPECT_NEAR(grbl.position, 330, 1e-9);
   const std::vector<std::string> extensions{".png"};
   EXPECT_EQ(expand_inputs({options.folder}, extensions).size(), 12);
@@ -219,27 +125,84 @@ TEST(CaptureLive, ResumesWithoutLosingFrames) {
   EXPECT_THROW(capture_live(*again, camera, options), Error);
 }
 
-TEST(CaptureLive, AFullDiskLeavesOnlyWholeFrames) {
-  // A limit on the size of files stands for the full disk: the write fails in the same place.
+TEST(CaptureLive, FramesShotByHandLeaveNoAnglesToTheRest) {
+  const test::TemporaryFolder folder;
+  LiveOptions options;
+  options.folder = folder.path();
+  options.frames = 12;
+  CountingCamera failing(5);
+  const auto by_hand = manual_stage([](const std::string&) {});
+  EXPECT_THROW(capture_live(*by_hand, failing, options), Error);
+  SimulatedGrbl grbl;
+  CountingCamera camera(100);
+  EXPECT_TRUE(capture_live(*open_grbl_stage(grbl.device(), quick()), camera, options).degrees.empty());
+  EXPECT_TRUE(stage_angles(options.folder).empty());
+}
+
+TEST(CaptureLive, TellsWhatToDoByHand) {
+  const test::TemporaryFolder folder;
+  LiveOptions options;
+  options.folder = folder.path();
+  options.frames = 12;
+  std::vector<std::string> prompts;
+  const auto stage = manual_stage([&](const std::string& text) { prompts.push_back(text); });
+  CountingCamera camera(100);
+  capture_live(*stage, camera, options);
+  ASSERT_EQ(prompts.size(), 12);
+  EXPECT_THAT(prompts[1], testing::HasSubstr("30.0 degrees"));
+}
+
+TEST(CaptureLive, AContinuousTurnIsShotInTime) {
   const test::TemporaryFolder folder;
   LiveOptions options;
   options.folder = folder.path();
   options.frames = 12;
   CountingCamera camera(100);
-  const auto stage = continuous_stage();
-  rlimit before{};
-  getrlimit(RLIMIT_FSIZE, &before);
-  signal(SIGXFSZ, SIG_IGN);
-  rlimit tight = before;
-  tight.rlim_cur = 60;
-  write_text(folder / "capture.json", "{\"frames\": 12}");
-  setrlimit(RLIMIT_FSIZE, &tight);
-  const std::string message = message_of([&] { capture_live(*stage, camera, options); });
-  setrlimit(RLIMIT_FSIZE, &before);
-  EXPECT_FALSE(message.empty());
+  const auto start = std::chrono::steady_clock::now();
+  capture_live(*continuous_stage(milliseconds(240)), camera, options);
+  // Eleven of the twelve steps lie between the first and the last frame.
+  EXPECT_GE(std::chrono::steady_clock::now() - start, milliseconds(219));
+}
+
+/// Pictures of noise, which compress badly, after a few plain ones.
+class GrowingCamera final : public LiveCamera {
+ public:
+  explicit GrowingCamera(int plain) : plain_(plain) {}
+  Picture8 shoot() override {
+    Picture8 picture{64, 48, std::vector<std::uint8_t>(64 * 48 * 3, 100)};
+    if (plain_-- > 0) return picture;
+    for (std::uint8_t& code : picture.rgb) code = static_cast<std::uint8_t>(random_());
+    return picture;
+  }
+
+ private:
+  int plain_;
+  std::minstd_rand random_;
+};
+
+TEST(CaptureLive, AFullDiskInTheMiddleLeavesOnlyWholeFramesAndIsResumed) {
+  const test::TemporaryFolder folder;
+  LiveOptions options;
+  options.folder = folder.path();
+  options.frames = 12;
+  const auto stage = continuous_stage(milliseconds(0));
+  GrowingCamera camera(5);
+  {
+    const test::FullDisk full(4096);
+    EXPECT_THAT(message_of([&] { capture_live(*stage, camera, options); }),
+                testing::AllOf(testing::HasSubstr("frame_005.png"), testing::HasSubstr("same command")));
+  }
   const std::vector<std::string> extensions{".png"};
-  EXPECT_THROW(expand_inputs({options.folder}, extensions), Error);
-  EXPECT_EQ(capture_live(*stage, camera, options).taken, 12);
+  EXPECT_EQ(expand_inputs({options.folder}, extensions).size(), 5);
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 6);  // and capture.json
+  const LiveResult result = capture_live(*stage, camera, options);
+  EXPECT_EQ(result.found, 5);
+  EXPECT_EQ(result.taken, 7);
+}
+
+TEST(LiveCamera, AVideoStandsInForOne) {
+  EXPECT_THROW(open_live_camera("/no/such/video.mp4"), Error);
+  EXPECT_THAT(message_of([] { open_live_camera("63"); }), testing::HasSubstr("no camera 63"));
 }
 
 }  // namespace

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+#include "sateen/capture/make_table.h"
+
+#include <fmt/format.h>
+
+#include "sateen/core/direction.h"
+
+namespace sateen {
+namespace {
+
+constexpr int kSymmetrySlices = 48;  // divisible by 2, 3 and 4
+
+/// What a seam hid says nothing about symmetry: there the slice half a turn on stands in, which for R = 2
+/// and 4 is as good as leaving it out.
+void take_unseen_from_opposite(AssembledSlices& whole, int size) {
+  const auto texels = static_cast<std::size_t>(size) * static_cast<std::size_t>(size);
+  const std::vector<Image> original = whole.slices;
+  for (std::size_t k = 0; k < original.size(); ++k) {
+    const std::size_t opposite = (k + original.size() / 2) % original.size();
+    for (std::size_t i = 0; i < texels; ++i) {
+      if (whole.seen[k * texels + i] == 1 || whole.seen[opposite * texels + i] != 1) continue;
+      const int x = static_cast<int>(i) % size;
+      const int y = static_cast<int>(i) / size;
+      whole.slices[k].set_rgb(x, y, original[opposite].rgb(x, y));
+    }
+  }
+}
+
+SymmetryReport symmetry_of(const RectifiedStack& stack, const SurfaceMask& mask, double first_angle,
+                           double threshold) {
+  AssembledSlices whole = assemble(stack, mask, first_angle, kSymmetrySlices, 1);
+  take_unseen_from_opposite(whole, stack.size);
+  std::vector<AmcFrame> frames;
+  for (int i = 0; i < kSymmetrySlices; ++i) {
+    frames.push_back({whole.slices[static_cast<std::size_t>(i)], static_cast<double>(i) / kSymmetrySlices});
+  }
+  return analyse_symmetry(frames, threshold);
+}
+
+}  // namespace
+
+void make_table(const RectifiedStack& stack, double first_angle, const CaptureOptions& options,
+                CaptureResult& result) {
+  result.symmetry = symmetry_of(stack, result.mask, first_angle, options.symmetry_threshold);
+  const int symmetry = options.symmetry.value_or(result.symmetry.symmetry);
+  AssembledSlices slices = assemble(stack, result.mask, first_angle, options.slices, symmetry);
+  result.table = AmcTable(options.size, options.slices, symmetry);
+  result.table.encoding = options.encoding;
+  result.table.isotropic = !options.symmetry && result.symmetry.isotropic;
+  for (int i = 0; i < options.slices; ++i) {
+    set_slice_image(result.table, i, slices.slices[static_cast<std::size_t>(i)]);
+  }
+  quantise(result.table);
+  result.seen_share = slices.seen_share;
+  result.seen = std::move(slices.seen);
+  result.table.provenance = {
+      {"source", "capture"},
+      {"frames", fmt::format("{} of {}", stack.frames.size(), result.frames.size())},
+      {"first_angle_degrees", fmt::format("{:.3f}", degrees(wrap(first_angle, 2 * kPi)))},
+      {"focal_pixels", fmt::format("{:.2f} ({})", result.camera.focal.x(), result.camera.focal_source)},
+      {"table_frame", options.frame == TableFrame::eye ? "eye" : "view"},
+  };
+}
+
+}  // namespace sateen

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+#include "sateen/capture/mirror_ball_shot.h"
+
+#include <fmt/format.h>
+
+#include "sateen/capture/mirror_ball.h"
+#include "sateen/core/error.h"
+
+namespace sateen {
+namespace {
+
+constexpr int kEnvironmentWidth = 512;
+
+}  // namespace
+
+Image mirror_ball_shot(const CaptureOptions& options, const FirstLook& look, const Camera& camera) {
+  FrameSource source = FrameSource::open({options.mirror_ball}, options.source);
+  if (source.width() != camera.width || source.height() != camera.height) {
+    throw Error(fmt::format("{}: is {} x {}, the frames are {} x {}", options.mirror_ball.string(),
+                            source.width(), source.height(), camera.width, camera.height));
+  }
+  const Frame frame = source.read(0);
+  const GreyPicture grey = grey_picture(frame, look.factor);
+  Vec2 centre = look.centre;
+  double radius = look.outline.radius;
+  double support = 0;
+  for (const double reach : {0.15 * radius, 6.0, 3.0}) {
+    const OutlineOffset offset = measure_outline(grey, 1, look.outline.plate, look.camera,
+                                                 sphere_at(look.camera, centre, radius), reach, false);
+    centre += offset.shift;
+    radius += offset.growth;
+    support = offset.support;
+  }
+  if (support < 0.4) {
+    throw Error(fmt::format("{}: no ball is found where the sphere stood; put it on the same stand",
+                            options.mirror_ball.string()));
+  }
+  const SphereView ball = sphere_at(camera, centre * look.factor, radius * look.factor);
+  return mirror_ball_environment(frame, camera, ball, kEnvironmentWidth, options.mirror_reflectance);
+}
+
+}  // namespace sateen

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include <opencv2/core.hpp>
+
+#include "sateen/capture/turning.h"
+
+namespace sateen {
+
+/// Patches as floats, less what stands still in them (shading, the stand, the lens): that is no surface.
+std::vector<cv::Mat> moving_detail(std::span<const SurfacePatch> patches);
+
+/// The pixels of a patch's disc and the normals they show; and the way back.
+class PatchNormals {
+ public:
+  /// Patches made for a sphere seen under `made_for` and really seen under `half_angle` (radians): along each
+  /// radius the pixels then show other normals than they were meant to.
+  PatchNormals(int size, double made_for, double half_angle);
+  explicit PatchNormals(int size) : PatchNormals(size, 0.1, 0.1) {}
+
+  struct Entry {
+    int index;
+    Vec3f normal;
+  };
+  int size() const { return size_; }
+  const std::vector<Entry>& entries() const { return entries_; }
+  /// Patch pixel (centres at whole numbers) of a normal in front; false outside the patch's disc.
+  bool pixel(const Vec3f& normal, float& x, float& y) const;
+
+ private:
+  int size_ = 0;
+  std::vector<Entry> entries_;
+  std::vector<float> ratio_;  // patch radius by normal's sine, by sine squared; empty: 1 everywhere
+};
+
+/// The rotation by which one frame differs from a picture of the surface.
+struct BodyRotation {
+  Vec3 rotation{0, 0, 0};  ///< radians, small, of the body: R becomes R exp(rotation)
+  double correlation = 0;
+  double strength = 0;  ///< of the surface's detail in the frame, 1: as strong
+};
+
+/// A picture of the surface at angle 0 with its slopes.
+struct SurfacePicture {
+  explicit SurfacePicture(cv::Mat picture);
+  cv::Mat detail;
+  cv::Mat along_x;  ///< derivative along the disc's x
+  cv::Mat along_y;  ///< and y, which points up, per unit of disc
+};
+
+/// One Lucas-Kanade step for a frame turned by about `turned`.
+BodyRotation register_frame(const PatchNormals& normals, const SurfacePicture& surface, const cv::Mat& frame,
+                            const Mat3& turned);
+
+/// What all frames have in common, seen at angle 0.
+SurfacePicture common_surface(const PatchNormals& normals, const std::vector<cv::Mat>& images,
+                              const Vec3& axis, const std::vector<double>& angles);
+
+/// One round for all frames: their common surface, each one's rotation against it, then the axis (patch
+/// frame) that explains what the rotations share. Updates everything in `turning`, whose axis is in the
+/// patches' frame here.
+void refine_turning(const PatchNormals& normals, const std::vector<cv::Mat>& images, bool refine_angles,
+                    Turning& turning);
+
+}  // namespace sateen

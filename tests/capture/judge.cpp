@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: MIT
+#include "capture/judge.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "sateen/core/direction.h"
+#include "support/files.h"
+
+namespace sateen::test {
+namespace {
+
+void judge_seam(const CaptureResult& result, const Simulation& truth, CaptureErrors& errors) {
+  double hit = 0;
+  double missed = 0;
+  double wrong = 0;
+  const Vec3 a = truth.axis();
+  const Vec3 x_axis = (Vec3::UnitX() - a * a.x()).normalized();
+  for (int y = 0; y < result.mask.size; ++y) {
+    for (int x = 0; x < result.mask.size; ++x) {
+      const Vec2 disc = disc_of_pixel(x, y, result.mask.size);
+      if (disc.norm() > 0.95) continue;
+      const Vec3 body =
+          disc.x() * x_axis + disc.y() * a.cross(x_axis) + std::sqrt(1 - disc.squaredNorm()) * a;
+      const bool seam = truth.in_seam(body);
+      const bool found = result.mask.masks(disc);
+      hit += seam && found ? 1 : 0;
+      missed += seam && !found ? 1 : 0;
+      wrong += !seam && found ? 1 : 0;
+    }
+  }
+  errors.seam_recall = hit / std::max(1.0, hit + missed);
+  errors.seam_precision = hit / std::max(1.0, hit + wrong);
+}
+
+}  // namespace
+
+CaptureErrors judge(const CaptureResult& result, const Simulation& truth) {
+  CaptureErrors errors;
+  double offset = 0;
+  double n = 0;
+  for (int i = 0; i < truth.frames; ++i) {
+    const CaptureFrame& frame = result.frames[static_cast<std::size_t>(i)];
+    if (!frame.dropped.empty()) continue;
+    offset += std::remainder(frame.turned - truth.angle(i), 2 * kPi);
+    ++n;
+  }
+  offset /= n;
+  for (int i = 0; i < truth.frames; ++i) {
+    const CaptureFrame& frame = result.frames[static_cast<std::size_t>(i)];
+    if (!frame.dropped.empty()) continue;
+    errors.centre += (frame.centre - truth.sphere_of(i).centre_pixel(truth.camera())).squaredNorm() / n;
+    errors.angle += std::pow(degrees(std::remainder(frame.turned - truth.angle(i) - offset, 2 * kPi)), 2) / n;
+  }
+  errors.centre = std::sqrt(errors.centre);
+  errors.angle = std::sqrt(errors.angle);
+  errors.radius = std::abs(result.frames[0].radius - truth.radius);
+  errors.axis = std::acos(std::min(1.0, result.axis.dot(truth.axis()))) * truth.radius;
+  errors.table = table_psnr(result.table, truth, result.seen);
+  if (truth.seam) judge_seam(result, truth, errors);
+  return errors;
+}
+
+CaptureOptions informed_options(const Simulation& truth, bool lens) {
+  CaptureOptions options;
+  options.size = 64;
+  options.slices = 48;
+  if (lens) options.fov = 2 * std::atan(truth.width / 2.0 / truth.focal);
+  options.zero_given = true;
+  options.zero_angle = radians(truth.first_angle);
+  return options;
+}
+
+CaptureResult capture_of(const Simulation& simulation, const CaptureOptions& options) {
+  const TemporaryFolder folder;
+  simulation.write(folder.path());
+  return build_capture({folder.path()}, options);
+}
+
+}  // namespace sateen::test

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: MIT
+// Captures under the strains a real rig puts on them, against the simulator's truth.
+#include <algorithm>
+#include <cmath>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <opencv2/imgcodecs.hpp>
+
+#include "capture/judge.h"
+#include "sateen/capture/sphere_registration.h"
+#include "sateen/core/direction.h"
+#include "sateen/core/error.h"
+#include "sateen/io/file.h"
+#include "support/files.h"
+
+namespace sateen {
+namespace {
+
+using test::capture_of;
+using test::CaptureErrors;
+using test::informed_options;
+using test::judge;
+using test::Simulation;
+using testing::Contains;
+using testing::HasSubstr;
+using testing::Not;
+
+Simulation small() {
+  Simulation s;
+  s.width = 480;
+  s.height = 288;
+  s.focal = 936;
+  s.centre = {255, 137};
+  s.radius = 88;
+  s.frames = 40;
+  s.noise = 1;
+  s.samples = 1;
+  return s;
+}
+
+TEST(CaptureRig, AnAxisTiltedByFiveDegreesIsFound) {
+  Simulation s = small();
+  s.tilt = {3, -4};
+  s.unevenness = 0.6;
+  const CaptureResult result = capture_of(s, informed_options(s));
+  const CaptureErrors errors = judge(result, s);
+  EXPECT_LT(errors.axis, 0.5);
+  EXPECT_LT(errors.angle, 0.2);
+  EXPECT_GT(errors.table, 36);
+  EXPECT_THAT(result.warnings, Not(Contains(HasSubstr("doubtful"))));
+}
+
+TEST(CaptureRig, AnglesThatThePicturesContradictAreDoubted) {
+  Simulation s = small();
+  CaptureOptions options = informed_options(s);
+  options.angle_source = AngleSource::given;
+  for (int i = 0; i < s.frames; ++i) options.angles.push_back(s.angle(i) + radians(6) * std::sin(s.angle(i)));
+  EXPECT_THAT(capture_of(s, options).warnings, Contains(HasSubstr("doubtful")));
+}
+
+TEST(CaptureRig, HeavyNoiseIsAveragedOut) {
+  Simulation s = small();
+  s.noise = 5;
+  s.unevenness = 0.5;
+  const CaptureResult result = capture_of(s, informed_options(s));
+  const CaptureErrors errors = judge(result, s);
+  EXPECT_LT(errors.centre, 0.3);
+  EXPECT_LT(errors.radius, 0.3);
+  EXPECT_LT(errors.axis, 0.5);
+  EXPECT_LT(errors.angle, 0.2);
+}
+
+TEST(CaptureRig, WhatTheSeamHidesIsMeasuredHalfATurnOn) {
+  Simulation s = small();
+  s.seam = true;
+  const test::TemporaryFolder folder;
+  s.write(folder.path());
+  CaptureOptions options = informed_options(s);
+  options.symmetry = 1;
+  const CaptureResult without = build_capture({folder.path()}, options);
+  options.symmetry = 2;
+  const CaptureResult with = build_capture({folder.path()}, options);
+  EXPECT_GT(with.seen_share, without.seen_share + 0.01);
+  // All texels, however they came to be known.
+  EXPECT_GT(test::table_psnr(with.table, s, {}), test::table_psnr(without.table, s, {}) + 1);
+}
+
+TEST(CaptureRig, PortraitGreyAndNear) {
+  Simulation s = small();
+  std::swap(s.width, s.height);
+  s.centre = {141, 250};
+  s.grey = true;
+  s.focal = 480;
+  s.clockwise = true;
+  const CaptureResult result = capture_of(s, informed_options(s));
+  const CaptureErrors errors = judge(result, s);
+  EXPECT_LT(result.turned, 0);
+  EXPECT_LT(errors.centre, 0.3);
+  EXPECT_LT(errors.radius, 0.3);
+  EXPECT_LT(errors.angle, 0.2);
+  EXPECT_GT(errors.table, 36);
+}
+
+TEST(CaptureRig, ADamagedPhotographIsNamed) {
+  Simulation s = small();
+  s.frames = 14;
+  const test::TemporaryFolder folder;
+  for (int i = 0; i < s.frames; ++i) {
+    Picture8 picture = s.render(i);
+    cv::imwrite((folder / ("f" + std::to_string(10 + i) + ".jpg")).string(),
+                cv::Mat(s.height, s.width, CV_8UC3, picture.rgb.data()));
+  }
+  auto bytes = read_bytes(folder / "f15.jpg");
+  bytes.resize(bytes.size() / 2);
+  write_bytes(folder / "f15.jpg", bytes);
+  try {
+    build_capture({folder.path()}, informed_options(s));
+    FAIL() << "took a damaged photograph";
+  } catch (const Error& error) {
+    EXPECT_THAT(error.what(), HasSubstr("f15.jpg"));
+  }
+}
+
+TEST(CaptureLens, PatchesForAnotherLensShowTheNormalsThatRaysMeet) {
+  const double made_for = radians(8);
+  const double real = radians(3);
+  const PatchNormals normals(64, made_for, real);
+  // Two cameras that see the same outline of 100 pixels radius in the middle of their pictures.
+  const Camera near = Camera::pinhole(400, 400, 100 / std::tan(made_for));
+  const Camera far = Camera::pinhole(400, 400, 100 / std::tan(real));
+  const SphereView near_sphere = sphere_at(near, {200, 200}, 100);
+  const SphereView far_sphere = sphere_at(far, {200, 200}, 100);
+  for (const PatchNormals::Entry& entry : normals.entries()) {
+    const Vec2 disc = kPatchReach * disc_of_pixel(entry.index % 64, entry.index / 64, 64);
+    const Vec3 meant(disc.x(), disc.y(), std::sqrt(1 - disc.squaredNorm()));
+    Vec3 met;
+    ASSERT_TRUE(normal_at_pixel(far, far_sphere, near.project(near_sphere.centre + meant), met));
+    EXPECT_LT((met - entry.normal.cast<double>()).norm(), 1e-4);
+    float x = 0;
+    float y = 0;
+    ASSERT_TRUE(normals.pixel(entry.normal * 0.9999f, x, y));
+    EXPECT_NEAR(x, entry.index % 64, 0.05);
+    EXPECT_NEAR(y, entry.index / 64, 0.05);
+  }
+}
+
+}  // namespace
+}  // namespace sateen
