@@ -95,7 +95,8 @@ BlindSpot::BlindSpot(double angle, const std::function<Vec3(double, double)>& co
     }
     right.row(at(kRings - 1, spoke)) += (kRings - 0.5) * turn * edge.col(spoke).transpose();
   }
-  const Eigen::SimplicialLDLT<Matrix> solver(laplacian());
+  // The same for every blind spot: factored once.
+  static const Eigen::SimplicialLDLT<Matrix> solver(laplacian());
   colours_.leftCols(unknowns) = solver.solve(right).transpose().cwiseMax(0.0);
   colours_.rightCols(kSpokes) = edge;
 }

@@ -8,6 +8,7 @@
 
 #include "sateen/core/colour.h"
 #include "sateen/core/error.h"
+#include "sateen/core/parallel.h"
 #include "sateen/matcap/support_function.h"
 
 namespace sateen {
@@ -96,21 +97,20 @@ Separation separate(const Image& picture, const Disc& disc, Outliers outliers, c
   }
   const SphereTiles tiles = tile_sphere(image.width, image.height, disc);
   Separation result{Image(image.width, image.height, 3), Image(image.width, image.height, 3)};
-  for (int c = 0; c < 3; ++c) {
+  parallel_for(3, [&](int c) {
     const std::vector<float> values = channel_of(image, c);
     const std::vector<char> ignored = outliers == Outliers::ignore
                                           ? find_outliers(values, image.width, image.height, disc)
                                           : std::vector<char>{};
     const std::vector<float> low = opening(tiles, values, ignored);
-    for (int y = 0; y < image.height; ++y) {
-      for (int x = 0; x < image.width; ++x) {
-        if (!on_disc(disc, x, y)) continue;
-        const std::size_t i = image.index(x, y) / 3;
-        result.low.at(x, y, c) = low[i];
-        result.high.at(x, y, c) = values[i] - low[i];
-      }
+    for (const int pixel : tiles.pixel) {
+      if (pixel < 0) continue;
+      const auto i = static_cast<std::size_t>(pixel);
+      const std::size_t at = 3 * i + static_cast<std::size_t>(c);
+      result.low.data[at] = low[i];
+      result.high.data[at] = values[i] - low[i];
     }
-  }
+  });
   return result;
 }
 

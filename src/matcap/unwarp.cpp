@@ -72,18 +72,29 @@ Vec3 sample_sharp(const Image& image, double x, double y) {
   return sum.cwiseMax(low).cwiseMin(high);
 }
 
-/// Where one pixel reads: four texels of one hemisphere, as indices of their first channel.
+/// Where one pixel reads: a square of four texels of one hemisphere.
 struct Lookup {
-  std::array<std::uint32_t, 4> texel;
-  std::array<float, 4> weight;
-  std::uint32_t pixel;
-  bool back;
+  std::uint32_t texel;  ///< index of the left upper one's first channel; those of the back follow the front's
+  std::uint32_t pixel;  ///< index of the pixel's first channel
+  float right, down;    ///< weights of the right and of the lower texels
+
+  /// Weights of left upper, right upper, left lower and right lower.
+  std::array<float, 4> weights() const {
+    return {(1 - right) * (1 - down), right * (1 - down), (1 - right) * down, right * down};
+  }
 };
 
 std::vector<Lookup> lookups(const Image& component, const Disc& disc, double slope, int size) {
-  std::vector<std::vector<Lookup>> rows(static_cast<std::size_t>(component.height));
+  std::vector<std::size_t> first(static_cast<std::size_t>(component.height) + 1, 0);
+  for (int y = 0; y < component.height; ++y) {
+    std::size_t count = 0;
+    for (int x = 0; x < component.width; ++x) count += on_disc(disc, x, y) ? 1 : 0;
+    first[static_cast<std::size_t>(y) + 1] = first[static_cast<std::size_t>(y)] + count;
+  }
+  std::vector<Lookup> all(first.back());
+  const auto hemisphere = static_cast<std::uint32_t>(3 * size * size);
   parallel_for(component.height, [&](int y) {
-    auto& row = rows[static_cast<std::size_t>(y)];
+    std::size_t next = first[static_cast<std::size_t>(y)];
     for (int x = 0; x < component.width; ++x) {
       if (!on_disc(disc, x, y)) continue;
       const Vec3 w = warp(normal_on_disc(disc_point(disc, x + 0.5, y + 0.5)), slope);
@@ -92,17 +103,11 @@ std::vector<Lookup> lookups(const Image& component, const Disc& disc, double slo
       const double cy = std::clamp((1 - t.y()) / 2 * size - 0.5, 0.0, size - 1.0);
       const int x0 = std::min(static_cast<int>(cx), size - 2);
       const int y0 = std::min(static_cast<int>(cy), size - 2);
-      const auto fx = static_cast<float>(cx - x0);
-      const auto fy = static_cast<float>(cy - y0);
-      const auto index = [&](int tx, int ty) { return static_cast<std::uint32_t>((ty * size + tx) * 3); };
-      row.push_back({{index(x0, y0), index(x0 + 1, y0), index(x0, y0 + 1), index(x0 + 1, y0 + 1)},
-                     {(1 - fx) * (1 - fy), fx * (1 - fy), (1 - fx) * fy, fx * fy},
-                     static_cast<std::uint32_t>(component.index(x, y)),
-                     w.z() < 0});
+      all[next++] = {static_cast<std::uint32_t>(3 * (y0 * size + x0)) + (w.z() < 0 ? hemisphere : 0),
+                     static_cast<std::uint32_t>(component.index(x, y)), static_cast<float>(cx - x0),
+                     static_cast<float>(cy - y0)};
     }
   });
-  std::vector<Lookup> all;
-  for (const auto& row : rows) all.insert(all.end(), row.begin(), row.end());
   return all;
 }
 
@@ -110,31 +115,44 @@ std::vector<Lookup> lookups(const Image& component, const Disc& disc, double slo
 /// errors of the pixels that read it. Where texels are denser than pixels the errors vanish; elsewhere it is
 /// the least squares.
 void correct(SphereMap& map, const Image& component, const std::vector<Lookup>& all) {
-  std::array<std::vector<float>, 2> received{std::vector<float>(map.front.data.size() / 3),
-                                             std::vector<float>(map.front.data.size() / 3)};
+  const auto size = static_cast<std::size_t>(map.size());
+  const std::array<std::size_t, 4> corner{0, 3, 3 * size, 3 * size + 3};
+  std::vector<float> texels = map.front.data;
+  texels.insert(texels.end(), map.back.data.begin(), map.back.data.end());
+  std::vector<float> received(texels.size() / 3);
   for (const Lookup& l : all) {
-    for (std::size_t i = 0; i < 4; ++i) received[l.back ? 1 : 0][l.texel[i] / 3] += l.weight[i];
+    const auto weights = l.weights();
+    for (std::size_t i = 0; i < 4; ++i) received[(l.texel + corner[i]) / 3] += weights[i];
   }
-  std::array<std::vector<float>, 2> change;
+  struct Step {
+    std::size_t texel;  // index of its first channel
+    float factor;
+  };
+  std::vector<Step> steps;  // of texels that some pixel reads
+  for (std::size_t i = 0; i < received.size(); ++i) {
+    if (received[i] > 1e-4F) steps.push_back({3 * i, 1 / std::max(received[i], 0.25F)});
+  }
+  std::vector<float> change(texels.size());
   for (int round = 0; round < kCorrections; ++round) {
-    for (auto& c : change) c.assign(map.front.data.size(), 0);
     for (const Lookup& l : all) {
-      const float* texels = (l.back ? map.back : map.front).data.data();
-      float* changes = change[l.back ? 1 : 0].data();
-      for (std::uint32_t c = 0; c < 3; ++c) {
+      const auto weights = l.weights();
+      for (std::size_t c = 0; c < 3; ++c) {
+        const std::size_t at = l.texel + c;
         float error = component.data[l.pixel + c];
-        for (std::size_t i = 0; i < 4; ++i) error -= l.weight[i] * texels[l.texel[i] + c];
-        for (std::size_t i = 0; i < 4; ++i) changes[l.texel[i] + c] += l.weight[i] * error;
+        for (std::size_t i = 0; i < 4; ++i) error -= weights[i] * texels[at + corner[i]];
+        for (std::size_t i = 0; i < 4; ++i) change[at + corner[i]] += weights[i] * error;
       }
     }
-    for (std::size_t side = 0; side < 2; ++side) {
-      std::vector<float>& texels = (side == 0 ? map.front : map.back).data;
-      for (std::size_t i = 0; i < texels.size(); ++i) {
-        const float weight = received[side][i / 3];
-        if (weight > 1e-4F) texels[i] += change[side][i] / std::max(weight, 0.25F);
+    for (const Step& step : steps) {
+      for (std::size_t c = step.texel; c < step.texel + 3; ++c) {
+        texels[c] += step.factor * change[c];
+        change[c] = 0;
       }
     }
   }
+  const auto back = texels.begin() + static_cast<std::ptrdiff_t>(map.front.data.size());
+  map.front.data.assign(texels.begin(), back);
+  map.back.data.assign(back, texels.end());
 }
 
 }  // namespace

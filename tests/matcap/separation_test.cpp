@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "sateen/matcap/separation.h"
 
+#include <functional>
 #include <limits>
 #include <random>
 
@@ -67,6 +68,64 @@ TEST(CosineOpening, EqualsComparingAllPairsInOddCases) {
   EXPECT_EQ(differing_pixels(noise, find_outliers(noise, kSize, kSize, disc), kSize, kSize, disc), 0);
   // A sphere that is smaller than its picture, off its middle, and not on pixel borders.
   EXPECT_EQ(differing_pixels(noise, {}, kSize, kSize, {29.3, 33.8, 22.6}), 0);
+}
+
+/// Pictures on which all points are equally far away, or in one plane, or on steps, or far apart.
+std::vector<float> smooth_picture(int size,
+                                  const std::function<double(double x, double y, double z)>& value) {
+  std::vector<float> values;
+  for (int y = 0; y < size; ++y) {
+    for (int x = 0; x < size; ++x) {
+      const Vec2 p = disc_of_pixel(x, y, size);
+      const double z = std::sqrt(std::max(0.0, 1 - p.squaredNorm()));
+      values.push_back(static_cast<float>(value(p.x(), p.y(), z)));
+    }
+  }
+  return values;
+}
+
+std::vector<std::vector<float>> flat_and_smooth_pictures(int size) {
+  std::vector<std::vector<float>> pictures;
+  const auto add = [&](const std::function<double(double x, double y, double z)>& value) {
+    pictures.push_back(smooth_picture(size, value));
+  };
+  add([](double, double, double) { return 0.3; });                               // constant
+  add([](double x, double, double) { return x < 0.1 ? 0.3 : 0.6; });             // two values
+  add([](double x, double y, double) { return (x < 0) == (y < 0) ? 0 : 0.5; });  // half of it black
+  add([](double x, double, double) { return 0.2 + 0.3 * (x + 1); });             // gradients
+  add([](double x, double y, double) { return 0.9 - 0.6 * (x * x + y * y); });
+  add([](double x, double y, double z) { return 0.4 * x + 0.3 * y + 0.866 * z; });  // a cosine lobe
+  add([](double x, double y, double) { return std::round(255 * (0.5 + 0.2 * x + 0.1 * y)) / 255; });
+  add([](double x, double y, double) {  // 0, and 0.1 to 1000
+    const double r2 = (x - 0.3) * (x - 0.3) + y * y;
+    return r2 < 0.3 ? 1000 * std::exp(-30 * r2) : 0;
+  });
+  return pictures;
+}
+
+TEST(CosineOpening, EqualsComparingAllPairsOnFlatAndSmoothPictures) {
+  for (const int size : {64, 90}) {
+    const Disc disc = inscribed_disc(size, size);
+    for (const std::vector<float>& values : flat_and_smooth_pictures(size)) {
+      EXPECT_EQ(differing_pixels(values, {}, size, size, disc), 0);
+    }
+  }
+}
+
+TEST(CosineOpening, NeverExceedsFlatAndSmoothPicturesAndIsIdempotent) {
+  const int size = 90;
+  const Disc disc = inscribed_disc(size, size);
+  for (const std::vector<float>& values : flat_and_smooth_pictures(size)) {
+    // A dark pixel v erodes another to e from where the cosine is v / e; that cosine is exact to 3e-7.
+    float darkest = 1;
+    for (const float v : values) darkest = v > 0 ? std::min(darkest, v) : darkest;
+    const auto once = cosine_opening(values, {}, size, size, disc);
+    const auto twice = cosine_opening(once, {}, size, size, disc);
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      EXPECT_LE(once[i], std::max(0.0F, values[i]));
+      EXPECT_NEAR(twice[i], once[i], 2e-6F * std::max(1.0F, once[i]) + 3e-7F * once[i] * once[i] / darkest);
+    }
+  }
 }
 
 TEST(CosineOpening, NeverExceedsTheInputAndIsIdempotent) {
