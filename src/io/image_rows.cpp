@@ -88,29 +88,25 @@ void ImageRowReader::read(std::span<float> out) {
   next_ += count;
 }
 
-namespace {
-
-/// A file that remembers a write that failed: the PNG writer does not look.
-class CheckedFile : public OIIO::Filesystem::IOFile {
- public:
-  explicit CheckedFile(const std::string& path) : IOFile(path, Write) {}
-  std::size_t write(const void* bytes, std::size_t size) override {
-    const std::size_t written = IOFile::write(bytes, size);
-    whole_ = whole_ && written == size;
-    return written;
-  }
-  /// Whether everything written so far has reached the file.
-  bool whole() const { return whole_ && m_file != nullptr && std::fflush(m_file) == 0; }
-
- private:
-  bool whole_ = true;
-};
-
-}  // namespace
-
 struct ImageRowWriter::File {
+  /// A file that remembers a write that failed: the PNG writer does not look.
+  class Checked : public OIIO::Filesystem::IOFile {
+   public:
+    explicit Checked(const std::string& path) : IOFile(path, Write) {}
+    std::size_t write(const void* bytes, std::size_t size) override {
+      const std::size_t written = IOFile::write(bytes, size);
+      whole_ = whole_ && written == size;
+      return written;
+    }
+    /// Whether everything written so far has reached the file.
+    bool whole() const { return whole_ && m_file != nullptr && std::fflush(m_file) == 0; }
+
+   private:
+    bool whole_ = true;
+  };
+
   explicit File(const std::string& path) : file(path) {}
-  CheckedFile file;  // outlives `output`, which writes to it
+  Checked file;  // outlives `output`, which writes to it
   std::unique_ptr<OIIO::ImageOutput> output;
 };
 

@@ -2,13 +2,6 @@
 #include "sateen/render/frame.h"
 
 namespace sateen {
-namespace {
-
-Vec3 xyz(const Image& image, int x, int y) {
-  return image.rgb(x, y).cast<double>();
-}
-
-}  // namespace
 
 std::optional<Surface> surface_at(const Frame& frame, int x, int y) {
   const SurfaceImages& images = *frame.surfaces;

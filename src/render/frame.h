@@ -18,6 +18,11 @@ struct SurfaceImages {
   Image mesh_normal;       ///< x, y, z in view space, before any normal map, 0
 };
 
+/// The first three channels of a pixel.
+inline Vec3 xyz(const Image& picture, int x, int y) {
+  return picture.rgb(x, y).cast<double>();
+}
+
 /// One rendered picture.
 struct Frame {
   Image colour;  ///< RGBA, linear, associated alpha

@@ -8,6 +8,7 @@
 #include "sateen/core/direction.h"
 #include "sateen/core/error.h"
 #include "sateen/core/parallel.h"
+#include "sateen/render/frame.h"
 
 namespace sateen {
 namespace {
@@ -46,10 +47,6 @@ void check(const Appearance& appearance, const ShadeInputs& inputs) {
   demand(needs.tangents, inputs.tangents, "tangents");
   demand(needs.uvs, inputs.uvs, "UVs");
   demand(needs.curvature, inputs.curvature, "curvature");
-}
-
-Vec3 xyz(const Image& image, int x, int y) {
-  return image.rgb(x, y).cast<double>();
 }
 
 /// Fills `surface`; false for an empty pixel.
