@@ -3,10 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "sateen/capture/choose_camera.h"
+#include "sateen/capture/used_frames.h"
 
 namespace sateen {
 namespace {
@@ -23,6 +26,22 @@ std::string lens_advice(const SphereView& sphere) {
 }
 
 }  // namespace
+
+std::vector<std::string> dropped_advice(const std::vector<CaptureFrame>& frames) {
+  constexpr std::size_t kNamed = 4;
+  std::map<std::string, std::vector<std::string>> files;  // of each reason
+  for (const CaptureFrame& frame : frames) {
+    if (!frame.dropped.empty() && frame.dropped != kSameAngle) files[frame.dropped].push_back(frame.file);
+  }
+  std::vector<std::string> advice;
+  for (auto& [reason, names] : files) {
+    const std::size_t more = names.size() - std::min(kNamed, names.size());
+    names.resize(names.size() - more);
+    advice.push_back(fmt::format("left out ({}): {}{}", reason, fmt::join(names, ", "),
+                                 more > 0 ? fmt::format(" and {} more", more) : ""));
+  }
+  return advice;
+}
 
 std::vector<std::string> framing_advice(const CaptureResult& result, int texels) {
   std::vector<std::string> advice;

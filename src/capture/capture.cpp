@@ -75,6 +75,7 @@ CaptureResult build_capture(const std::vector<std::filesystem::path>& inputs, co
   make_table(stack, first_angle, options, result);
   report(options.progress, 1);
   if (!options.mirror_ball.empty()) result.environment = mirror_ball_shot(options, look, result.camera);
+  append(result.warnings, dropped_advice(result.frames));
   append(result.warnings, framing_advice(result, options.size));
   append(result.warnings, source.warnings());
   return result;

@@ -6,11 +6,40 @@
 #include <cmath>
 #include <numeric>
 
+#include "sateen/capture/median.h"
+
 namespace sateen {
 namespace {
 
 constexpr int kScouts = 32;
 constexpr int kLargestPatch = 192;
+
+/// Standard deviation of every 7th pixel's code.
+double contrast(const GreyPicture& picture) {
+  double sum = 0;
+  double squares = 0;
+  double n = 0;
+  for (int y = 0; y < picture.height; y += 7) {
+    for (int x = 0; x < picture.width; x += 7) {
+      const double code = picture.at(x, y);
+      sum += code;
+      squares += code * code;
+      ++n;
+    }
+  }
+  return std::sqrt(std::max(0.0, squares / n - sum / n * (sum / n)));
+}
+
+/// Takes out pictures that show next to nothing beside the others: a covered lens, a lamp that was off. One
+/// of them would make the whole picture look as if it changed.
+void leave_out_blank(std::vector<GreyPicture>& pictures) {
+  std::vector<double> contrasts;
+  contrasts.reserve(pictures.size());
+  for (const GreyPicture& picture : pictures) contrasts.push_back(contrast(picture));
+  if (contrasts.empty()) return;
+  const double typical = median(contrasts);
+  std::erase_if(pictures, [&](const GreyPicture& picture) { return contrast(picture) < 0.35 * typical; });
+}
 
 }  // namespace
 
@@ -20,6 +49,7 @@ FirstLook first_look(FrameSource& source, const Camera& camera, const Progress& 
   look.camera = camera.scaled(1.0 / look.factor);
   std::vector<int> indices;
   const int scouts = std::min(kScouts, source.count());
+  indices.reserve(static_cast<std::size_t>(scouts));
   for (int i = 0; i < scouts; ++i) {
     indices.push_back(static_cast<int>(static_cast<std::int64_t>(i) * source.count() / scouts));
   }
@@ -31,6 +61,7 @@ FirstLook first_look(FrameSource& source, const Camera& camera, const Progress& 
     report(progress, static_cast<double>(++done) / scouts);
   });
   std::erase_if(greys, [](const GreyPicture& grey) { return grey.codes.empty(); });
+  leave_out_blank(greys);
   look.scouting = find_sphere(greys);
   look.outline = fit_outlines(greys, look.scouting, look.camera);
   for (const Vec2& c : look.outline.centres)
@@ -43,8 +74,9 @@ FirstLook first_look(FrameSource& source, const Camera& camera, const Progress& 
   for (const Eigen::Vector2i& p : look.still.pixels) {
     const int x = p.x() / look.factor;
     const int y = p.y() / look.factor;
-    const double code =
-        static_cast<double>(look.scouting.mean[static_cast<std::size_t>(y * greys[0].width + x)]);
+    const double code = static_cast<double>(
+        look.scouting.mean[static_cast<std::size_t>(y) * static_cast<std::size_t>(greys[0].width) +
+                           static_cast<std::size_t>(x)]);
     look.still_grey.push_back(code * code / (255.0 * 255.0));
   }
   return look;

@@ -10,6 +10,7 @@ namespace sateen {
 namespace {
 
 constexpr int kEnvironmentWidth = 512;
+constexpr double kScattered = 1;  // pixels: edge points of a real outline lie closer to it
 
 }  // namespace
 
@@ -24,14 +25,16 @@ Image mirror_ball_shot(const CaptureOptions& options, const FirstLook& look, con
   Vec2 centre = look.centre;
   double radius = look.outline.radius;
   double support = 0;
+  double scatter = 0;  // in the first searches, which are wide enough to tell an outline from chance
   for (const double reach : {0.15 * radius, 6.0, 3.0}) {
     const OutlineOffset offset = measure_outline(grey, 1, look.outline.plate, look.camera,
                                                  sphere_at(look.camera, centre, radius), reach, false);
     centre += offset.shift;
     radius += offset.growth;
     support = offset.support;
+    if (reach > 3) scatter = offset.residual;
   }
-  if (support < 0.4) {
+  if (support < 0.4 || scatter > kScattered) {
     throw Error(fmt::format("{}: no ball is found where the sphere stood; put it on the same stand",
                             options.mirror_ball.string()));
   }

@@ -40,18 +40,24 @@ GreyPicture grey_picture(const Frame& frame, int factor, const GreyRegion& regio
   picture.height = frame.height() / factor;
   picture.codes.resize(static_cast<std::size_t>(picture.width) * static_cast<std::size_t>(picture.height));
   const float scale = 1.0f / static_cast<float>(factor * factor);
+  const int first = std::max(0, region.left);
+  const int end = std::min(picture.width, region.right);
+  // Look-ups and roots apart: the roots then take several pixels at once.
+  std::vector<float> light(static_cast<std::size_t>(std::max(0, end - first)));
   for (int y = std::max(0, region.top); y < std::min(picture.height, region.bottom); ++y) {
-    const int first = std::max(0, region.left);
-    std::size_t i = static_cast<std::size_t>(y) * static_cast<std::size_t>(picture.width) +
-                    static_cast<std::size_t>(first);
-    for (int x = first; x < std::min(picture.width, region.right); ++x) {
+    for (std::size_t i = 0; i < light.size(); ++i) {
+      const int x = (first + static_cast<int>(i)) * factor;
       float sum = 0;
       for (int v = 0; v < factor; ++v) {
-        for (int u = 0; u < factor; ++u) sum += frame.grey(x * factor + u, y * factor + v);
+        for (int u = 0; u < factor; ++u) sum += frame.grey(x + u, y * factor + v);
       }
-      const float code = 255 * std::sqrt(std::clamp(sum * scale, 0.0f, 1.0f));
-      picture.codes[i++] = static_cast<std::uint8_t>(code + 0.5f);
+      light[i] = std::clamp(sum * scale, 0.0f, 1.0f);
     }
+    Eigen::Map<Eigen::ArrayXf> row(light.data(), static_cast<Eigen::Index>(light.size()));
+    row = 255 * row.sqrt() + 0.5f;
+    std::transform(light.begin(), light.end(),
+                   picture.codes.begin() + static_cast<std::ptrdiff_t>(y) * picture.width + first,
+                   [](float code) { return static_cast<std::uint8_t>(static_cast<int>(code)); });
   }
   return picture;
 }

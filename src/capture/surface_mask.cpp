@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 
 #include <opencv2/imgproc.hpp>
 
@@ -40,6 +41,25 @@ float dark_floor(const RectifiedStack& stack) {
 }
 
 constexpr std::int8_t kUnknown = -128;
+constexpr std::size_t kMostNeighbours = 32;  // more than a median needs
+constexpr int kBlock = 8;
+
+/// The middle values (the upper of two) of kBlock columns at once: a selection network, so that several
+/// medians share each instruction. `rows` has 1 to kMostNeighbours pointers, each to kBlock values.
+std::array<float, kBlock> middle_of_columns(std::span<const float* const> rows) {
+  std::array<std::array<float, kBlock>, kMostNeighbours> v;
+  for (std::size_t i = 0; i < rows.size(); ++i) std::copy_n(rows[i], kBlock, v[i].begin());
+  for (std::size_t lowest = 0; lowest <= rows.size() / 2; ++lowest) {
+    for (std::size_t i = rows.size() - 1; i > lowest; --i) {
+      for (std::size_t x = 0; x < kBlock; ++x) {
+        const float smaller = std::min(v[i][x], v[i - 1][x]);
+        v[i][x] = std::max(v[i][x], v[i - 1][x]);
+        v[i - 1][x] = smaller;
+      }
+    }
+  }
+  return v[rows.size() / 2];
+}
 
 /// Some fifty frames agree as well as all of them.
 std::size_t frame_step(std::size_t frames) {
@@ -64,43 +84,74 @@ std::vector<std::int8_t> deviations(const RectifiedStack& stack, const SurfaceMa
       const double apart = std::abs(std::remainder(stack.angles[g] - stack.angles[f], 2 * kPi));
       if (apart > kNear && apart < kFar) neighbours[f].push_back(g);
     }
-    // A long video has more than a median needs.
-    const std::size_t every = (neighbours[f].size() + 31) / 32;
+    const std::size_t every = (neighbours[f].size() + kMostNeighbours - 1) / kMostNeighbours;
     std::size_t kept = 0;
     for (std::size_t i = 0; i < neighbours[f].size(); i += std::max<std::size_t>(1, every)) {
       neighbours[f][kept++] = neighbours[f][i];
     }
     neighbours[f].resize(kept);
   }
+  const int blocks = (stack.size + kBlock - 1) / kBlock;
+  const float darkest = std::log(3 * dark);
   parallel_for(stack.size, [&](int row) {
-    std::vector<std::array<float, 3>> light(frames);
-    std::vector<std::uint8_t> usable(frames);
+    // Of one block: log light [frame][channel][column]; usable [frame][column]: 0 unseen, 1 seen, 2 seen but
+    // known to be a blemish.
+    using Columns = std::array<float, kBlock>;
+    std::vector<std::array<Columns, 3>> light(frames);
+    std::vector<std::array<std::uint8_t, kBlock>> usable(frames);
+    std::vector<std::uint8_t> whole(frames);  // 1: usable in all columns
+    std::vector<const float*> rows;
     std::vector<float> around;
-    for (int x = 0; x < stack.size; ++x) {
-      const auto i = static_cast<std::size_t>(row * stack.size + x);
-      if (!stack.points[i].visible) continue;
+    for (int block = 0; block < blocks; ++block) {
+      const int first = block * kBlock;
+      bool any = false;
       for (std::size_t f = 0; f < frames; ++f) {
         const RectifiedFrame& frame = stack.frames[f];
-        usable[f] = frame.weight[i] > 127 ? 1 : 0;
-        if (usable[f] != 0 && already.excludes(body_point(axes, stack.points[i].normal, stack.angles[f])))
-          usable[f] = 2;
-        for (std::size_t c = 0; c < 3; ++c) {
-          light[f][c] = std::log(std::max(0.0f, static_cast<float>(frame.rgb[i * 3 + c])) + dark);
+        whole[f] = 1;
+        for (int u = 0; u < kBlock; ++u) {
+          const auto column = static_cast<std::size_t>(u);
+          const auto i = static_cast<std::size_t>(row) * static_cast<std::size_t>(stack.size) +
+                         static_cast<std::size_t>(std::min(first + u, stack.size - 1));
+          std::uint8_t& use = usable[f][column];
+          use = first + u < stack.size && stack.points[i].visible && frame.weight[i] > 127 ? 1 : 0;
+          if (use != 0 && already.excludes(body_point(axes, stack.points[i].normal, stack.angles[f])))
+            use = 2;
+          any = any || use != 0;
+          if (use != 1) whole[f] = 0;
+          for (std::size_t c = 0; c < 3; ++c) {
+            light[f][c][column] =
+                use == 0 ? 0 : std::log(std::max(0.0f, static_cast<float>(frame.rgb[i * 3 + c])) + dark);
+          }
         }
       }
-      const float darkest = std::log(3 * dark);
+      if (!any) continue;
+      const auto note = [&](std::size_t f, std::size_t c, std::size_t column, float expected) {
+        if (usable[f][column] == 0 || expected < darkest) return;
+        const auto i = static_cast<std::size_t>(row) * static_cast<std::size_t>(stack.size) +
+                       static_cast<std::size_t>(first) + column;
+        const float deviation = std::clamp(light[f][c][column] - expected, -1.2f, 1.2f);
+        result[(f * texels + i) * 3 + c] = static_cast<std::int8_t>(std::lround(deviation * 100));
+      };
       for (std::size_t f = 0; f < frames; f += step) {
-        if (usable[f] == 0) continue;
+        const bool all_seen =
+            neighbours[f].size() >= 3 &&
+            std::ranges::all_of(neighbours[f], [&](std::size_t g) { return whole[g] != 0; });
         for (std::size_t c = 0; c < 3; ++c) {
-          around.clear();
-          for (const std::size_t g : neighbours[f]) {
-            if (usable[g] == 1) around.push_back(light[g][c]);
+          if (all_seen) {
+            rows.clear();
+            for (const std::size_t g : neighbours[f]) rows.push_back(light[g][c].data());
+            const Columns expected = middle_of_columns(rows);
+            for (std::size_t column = 0; column < kBlock; ++column) note(f, c, column, expected[column]);
+            continue;
           }
-          if (around.size() < 3) continue;
-          const auto expected = static_cast<float>(middle_of(around));
-          if (expected < darkest) continue;
-          const float deviation = std::clamp(light[f][c] - expected, -1.2f, 1.2f);
-          result[(f * texels + i) * 3 + c] = static_cast<std::int8_t>(std::lround(deviation * 100));
+          for (std::size_t column = 0; column < kBlock; ++column) {
+            if (usable[f][column] == 0) continue;
+            around.clear();
+            for (const std::size_t g : neighbours[f]) {
+              if (usable[g][column] == 1) around.push_back(light[g][c][column]);
+            }
+            if (around.size() >= 3) note(f, c, column, static_cast<float>(middle_of(around)));
+          }
         }
       }
     }

@@ -59,7 +59,7 @@ void drop_duplicates(std::vector<CaptureFrame>& frames) {
   std::size_t kept = indices[0];
   for (std::size_t k = 1; k < indices.size(); ++k) {
     if (step(kept, indices[k]) < 0.1 * typical) {
-      frames[indices[k]].dropped = "shows the same angle as the frame before";
+      frames[indices[k]].dropped = kSameAngle;
     } else {
       kept = indices[k];
     }

@@ -7,6 +7,9 @@
 
 namespace sateen {
 
+/// CaptureFrame::dropped of a frame that turned by next to nothing.
+inline constexpr const char* kSameAngle = "shows the same angle as the frame before";
+
 /// Places of the frames that are not dropped, ascending.
 std::vector<std::size_t> used_frames(const std::vector<CaptureFrame>& frames);
 

@@ -6,7 +6,10 @@
 
 #include "capture/altered_frames.h"
 #include "capture/simulator.h"
+#include "sateen/capture/measure.h"
+#include "sateen/capture/mirror_ball_shot.h"
 #include "sateen/core/direction.h"
+#include "sateen/core/error.h"
 #include "sateen/io/image.h"
 #include "support/files.h"
 
@@ -97,6 +100,30 @@ TEST(CaptureMirrorBallCommand, WritesTheRoomBesideTheTable) {
     }
   }
   EXPECT_LT(std::sqrt(squares / count), 0.02);
+}
+
+TEST(CaptureMirrorBall, APictureWithoutABallIsRefused) {
+  Simulation s = small();
+  s.frames = 12;
+  const test::TemporaryFolder folder;
+  std::filesystem::create_directory(folder / "shots");
+  s.write(folder / "shots");
+  FrameSource source = FrameSource::open({folder / "shots"}, {});
+  const FirstLook look = first_look(source, s.camera(), {});
+  const auto complaint = [&](const Image& picture) -> std::string {
+    CaptureOptions options;
+    options.mirror_ball = folder / "picture.png";
+    write_image(options.mirror_ball, picture);
+    try {
+      mirror_ball_shot(options, look, s.camera());
+    } catch (const Error& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_THAT(complaint(Image(s.width, s.height, 3, 0.3f)), testing::HasSubstr("no ball is found"));
+  s.sphere = false;
+  EXPECT_THAT(complaint(test::light_of(s.render(0))), testing::HasSubstr("no ball is found"));
 }
 
 }  // namespace

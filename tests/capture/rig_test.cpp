@@ -22,6 +22,7 @@ using test::CaptureErrors;
 using test::informed_options;
 using test::judge;
 using test::Simulation;
+using testing::AllOf;
 using testing::Contains;
 using testing::HasSubstr;
 using testing::Not;
@@ -69,6 +70,22 @@ TEST(CaptureRig, HeavyNoiseIsAveragedOut) {
   EXPECT_LT(errors.radius, 0.3);
   EXPECT_LT(errors.axis, 0.5);
   EXPECT_LT(errors.angle, 0.2);
+}
+
+TEST(CaptureRig, BlackFramesAreLeftOutWithAWarning) {
+  Simulation s = small();
+  s.black = {0, 14, 15};
+  CaptureOptions options = informed_options(s);
+  options.zero = ZeroAngle::thread;
+  options.zero_frame = 1;
+  options.zero_angle += s.angle(1);
+  const CaptureResult result = capture_of(s, options);
+  for (const int i : s.black)
+    EXPECT_EQ(result.frames[static_cast<std::size_t>(i)].dropped, "much darker than the others");
+  EXPECT_EQ(std::ranges::count_if(result.frames, [](const CaptureFrame& f) { return f.dropped.empty(); }),
+            37);
+  EXPECT_THAT(result.warnings, Contains(AllOf(HasSubstr("left out"), HasSubstr("frame_014.png"))));
+  EXPECT_GT(judge(result, s).table, 36);
 }
 
 TEST(CaptureRig, WhatTheSeamHidesIsMeasuredHalfATurnOn) {

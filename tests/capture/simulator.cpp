@@ -222,7 +222,8 @@ Picture8 Simulation::render(int frame) const {
   if (sigma > 0) cv::GaussianBlur(image, image, {}, sigma);
 
   std::minstd_rand random(seed * 1000003u + static_cast<std::uint32_t>(frame) + 1);
-  const Vec3 exposed = gain(frame);
+  const bool dark = std::ranges::find(black, frame) != black.end();
+  const Vec3 exposed = dark ? Vec3(0, 0, 0) : gain(frame);
   Picture8 picture;
   picture.width = width;
   picture.height = height;

@@ -41,6 +41,7 @@ struct Simulation {
   bool covered = false;       // by a post in front of the sphere's lower part
   std::vector<int> shaken;    // frames that are blurred
   std::vector<int> repeated;  // frames that repeat the one before
+  std::vector<int> black;     // frames that show nothing but noise
   Vec2 camera_move{0, 0};     // pixels by which the picture jumps half-way
   bool second_sphere = false;
   bool sphere = true;
