@@ -28,15 +28,17 @@ double cosine_of(double along) {
 
 }  // namespace
 
-FibreTable::FibreTable(const Vec3& fibre, int along, int across, const std::function<Vec4(const Vec3&)>& f)
+FibreTable::FibreTable(const Vec3& fibre, int along, int across, const std::function<Column(double)>& column)
     : fibre_(fibre),
       along_(along),
       across_(across),
       texels_(static_cast<std::size_t>(along) * static_cast<std::size_t>(across)) {
-  parallel_for(across, [&](int j) {
-    for (int i = 0; i < along_; ++i) {
-      const Vec3 w = direction(static_cast<double>(i) / (along_ - 1), static_cast<double>(j) / (across_ - 1));
-      texels_[static_cast<std::size_t>(j * along_ + i)] = f(w).cast<float>();
+  parallel_for(along, [&](int i) {
+    const double at = static_cast<double>(i) / (along_ - 1);
+    const Column value = column(cosine_at(at));
+    for (int j = 0; j < across_; ++j) {
+      const Vec3 w = direction(at, static_cast<double>(j) / (across_ - 1));
+      texels_[static_cast<std::size_t>(j * along_ + i)] = value(w).cast<float>();
     }
   });
 }
@@ -52,9 +54,13 @@ FibreTable::Cone FibreTable::cone(double cosine) const {
   return {std::max(middle - swing, 0.0), middle + swing};
 }
 
-Vec3 FibreTable::direction(double along, double across) const {
+double FibreTable::cosine_at(double along) const {
   const double first = kFirst + kInside;
-  const double cosine = cosine_of(first + (last_along() - kInside - first) * along);
+  return cosine_of(first + (last_along() - kInside - first) * along);
+}
+
+Vec3 FibreTable::direction(double along, double across) const {
+  const double cosine = cosine_at(along);
   if (std::abs(fibre_.x()) < kUpright) {
     // Any direction on the cone, off the plane.
     const double z = std::max(cosine, kInside);

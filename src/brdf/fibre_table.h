@@ -19,9 +19,12 @@ namespace sateen {
 class FibreTable {
  public:
   FibreTable() = default;
-  /// `fibre` is unit, in the x-z plane, z >= 0. Calls `f` once a texel, in parallel, for directions on the
-  /// side of positive y, a little inside the hemisphere and off the plane.
-  FibreTable(const Vec3& fibre, int along, int across, const std::function<Vec4(const Vec3&)>& f);
+  /// The values of directions on one cone.
+  using Column = std::function<Vec4(const Vec3&)>;
+  /// `fibre` is unit, in the x-z plane, z >= 0. Calls `column` once for each cone, given its cosine to the
+  /// fibre, in parallel, and what it returns once a texel, for directions on the side of positive y, a little
+  /// inside the hemisphere and off the plane.
+  FibreTable(const Vec3& fibre, int along, int across, const std::function<Column(double)>& column);
 
   /// Directions below the horizon read the horizon. Texels are held in single precision, as the GPU does.
   Vec4 operator()(const Vec3& direction) const;
@@ -36,6 +39,7 @@ class FibreTable {
   };
   Cone cone(double cosine) const;
   double last_along() const;
+  double cosine_at(double along) const;
   Vec3 direction(double along, double across) const;
 
   Vec3 fibre_{0, 0, 1};
