@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// The cost of looking at an appearance: constant colour, plain MatCap, AMC with the two-k trick and with its
-// angle per fragment; on an object that fills the picture with few triangles, and on a dense mesh.
-// docs/rendering.md says how to read it. The last case is `sateen render` from the command line to its first
-// picture.
+// The cost of looking at an appearance: constant colour, plain MatCap, decomposed MatCap, AMC with the two-k
+// trick and with its angle per fragment; on an object that fills the picture with few triangles, and on a
+// dense mesh. docs/rendering.md says how to read it. The last case is `sateen render` from the command line
+// to its first picture.
 #include <algorithm>
 #include <array>
 #include <memory>
@@ -17,6 +17,7 @@
 #include "sateen/gpu/context.h"
 #include "sateen/gpu/framebuffer.h"
 #include "sateen/gpu/timer.h"
+#include "sateen/matcap/decomposed_appearance.h"
 #include "sateen/matcap/matcap.h"
 #include "sateen/render/constant.h"
 #include "sateen/render/renderer.h"
@@ -29,7 +30,7 @@ namespace {
 
 constexpr int kSide = 1024;
 
-enum Subject : std::size_t { kConstant, kMatCap, kAmc, kAmcPerFragment };
+enum Subject : std::size_t { kConstant, kMatCap, kDecomposed, kAmc, kAmcPerFragment };
 
 /// Full-screen: 2048 triangles over every pixel, bent so that normals and tangents vary.
 Mesh sheet() {
@@ -50,12 +51,16 @@ std::shared_ptr<const Appearance> appearance(Subject subject) {
   AmcTable table = test::analytic_table(128, 128, 2);
   table.encoding = AmcEncoding::srgb8;
   quantise(table);
+  if (subject == kDecomposed) {
+    return std::make_shared<const DecomposedAppearance>(
+        unedited(decompose(isotropic_average(table), inscribed_disc(128, 128), {}, "matcap")));
+  }
   if (subject == kMatCap) return std::make_shared<const MatCap>(isotropic_average(table));
   return std::make_shared<const AmcAppearance>(table);
 }
 
-constexpr std::array kSubjects{kConstant, kMatCap, kAmc, kAmcPerFragment};
-constexpr std::array kNames{"constant", "matcap", "amc", "amc_per_fragment"};
+constexpr std::array kSubjects{kConstant, kMatCap, kDecomposed, kAmc, kAmcPerFragment};
+constexpr std::array kNames{"constant", "matcap", "decomposed_matcap", "amc", "amc_per_fragment"};
 
 double median(std::vector<double> values) {
   std::ranges::nth_element(values, values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2));

@@ -37,14 +37,18 @@ Image over_picture(const MatcapDecomposition& matcap, const Shade& shade) {
 }  // namespace
 
 Image bake(const EditedMatcap& matcap) {
-  return over_picture(matcap.matcap, [&](const Vec3& n) { return evaluate(matcap, n); });
+  Image image = over_picture(matcap.matcap, [&](const Vec3& n) { return evaluate(matcap, n); });
+  if (matcap.light.isIdentity()) put_back(matcap.matcap.rim, matcap.matcap.disc, image);
+  return image;
 }
 
 std::array<Image, 2> bake_layers(const EditedMatcap& matcap) {
   const AddUpSpace space = matcap.matcap.space;
   const auto low = [&](const Vec3& n) { return to_linear(evaluate_part(matcap, Part::low, n), space); };
-  return {over_picture(matcap.matcap, low),
-          over_picture(matcap.matcap, [&](const Vec3& n) { return Vec3(evaluate(matcap, n) - low(n)); })};
+  Image diffuse = over_picture(matcap.matcap, low);
+  Image specular = bake(matcap);
+  for (std::size_t i = 0; i < specular.data.size(); ++i) specular.data[i] -= diffuse.data[i];
+  return {std::move(diffuse), std::move(specular)};
 }
 
 Vec3 direction_of_environment(int x, int y, int height) {

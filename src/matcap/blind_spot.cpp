@@ -6,8 +6,6 @@
 #include <cmath>
 #include <vector>
 
-#include "sateen/matcap/sphere_map.h"
-
 namespace sateen {
 namespace {
 
@@ -102,7 +100,8 @@ BlindSpot::BlindSpot(double angle, const std::function<Vec3(double, double)>& co
 }
 
 Vec3 BlindSpot::operator()(const Vec3& direction) const {
-  const Vec2 t = map_of_direction(direction);
+  // The point of the back map, also of directions before the equator: large blind spots reach there.
+  const Vec2 t = direction.head<2>() / (1 - direction.z());
   const double ring = radius_ > 0 ? std::min(t.norm() / radius_, 1.0) * kRings : kRings;
   const double spoke = std::atan2(t.y(), t.x()) / (2 * kPi) * kSpokes + kSpokes;
   const int i = std::min(static_cast<int>(ring), kRings - 1);

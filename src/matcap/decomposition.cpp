@@ -20,8 +20,14 @@ Image divided_by(Image image, const Vec3& color) {
   return image;
 }
 
+Image sum_of(const Separation& components) {
+  Image sum = components.low;
+  for (std::size_t i = 0; i < sum.data.size(); ++i) sum.data[i] += components.high.data[i];
+  return sum;
+}
+
 MatcapPart part_of(const Image& component, const Disc& disc, const std::vector<Region>& regions,
-                   double fallback, int map_size, const std::string& name) {
+                   double fallback, int map_size, double rim, const std::string& name) {
   MatcapPart part;
   part.base_color = base_color_of(component, disc);
   const FilterEstimate estimate = regions.empty() ? estimate_filter(component, disc, fallback)
@@ -31,7 +37,7 @@ MatcapPart part_of(const Image& component, const Disc& disc, const std::vector<R
   part.feature = estimate.feature;
   part.regions = estimate.regions;
   part.map =
-      prefilter(unwarp_to_sphere(divided_by(component, part.base_color), disc, part.slope(), map_size));
+      prefilter(unwarp_to_sphere(divided_by(component, part.base_color), disc, part.slope(), map_size, rim));
   return part;
 }
 
@@ -81,10 +87,11 @@ MatcapDecomposition decompose(const Separation& components, const Disc& disc, co
   result.width = components.low.width;
   result.height = components.low.height;
   result.disc = disc;
+  result.rim = rim_of(sum_of(components), disc, result.space);
   parallel_for(2, [&](int i) {
     result.parts[static_cast<std::size_t>(i)] =
         part_of(i == 0 ? components.low : components.high, disc, options.regions[static_cast<std::size_t>(i)],
-                i == 0 ? kLambertian : kSatin, map_size, name);
+                i == 0 ? kLambertian : kSatin, map_size, result.rim.width, name);
   });
   return result;
 }
@@ -98,6 +105,7 @@ MatcapDecomposition decompose(const Image& picture, const Disc& disc, const Deco
     result.width = picture.width;
     result.height = picture.height;
     result.disc = disc;
+    result.rim = rim_pixels(with_channels(picture, 3), disc, result.rim.width / shrink);
     return result;
   }
   return decompose(separate(to_add_up_space(picture, options.space), disc, options.outliers, name), disc,

@@ -8,6 +8,7 @@
 
 #include "sateen/core/image.h"
 #include "sateen/matcap/filter_estimate.h"
+#include "sateen/matcap/rim.h"
 #include "sateen/matcap/separation.h"
 #include "sateen/matcap/sphere_disc.h"
 #include "sateen/matcap/sphere_map.h"
@@ -42,6 +43,7 @@ struct MatcapDecomposition {
   int width = 0;  ///< of the input picture
   int height = 0;
   Disc disc;  ///< the sphere in it
+  Rim rim;    ///< pixels the maps leave out
   std::map<std::string, std::string> provenance;
 
   MatcapPart& operator[](Part part) { return parts[static_cast<std::size_t>(part)]; }

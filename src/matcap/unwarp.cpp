@@ -84,11 +84,12 @@ struct Lookup {
   }
 };
 
-std::vector<Lookup> lookups(const Image& component, const Disc& disc, double slope, int size) {
+std::vector<Lookup> lookups(const Image& component, const Disc& disc, const Disc& read, double slope,
+                            int size) {
   std::vector<std::size_t> first(static_cast<std::size_t>(component.height) + 1, 0);
   for (int y = 0; y < component.height; ++y) {
     std::size_t count = 0;
-    for (int x = 0; x < component.width; ++x) count += on_disc(disc, x, y) ? 1 : 0;
+    for (int x = 0; x < component.width; ++x) count += on_disc(read, x, y) ? 1 : 0;
     first[static_cast<std::size_t>(y) + 1] = first[static_cast<std::size_t>(y)] + count;
   }
   std::vector<Lookup> all(first.back());
@@ -96,7 +97,7 @@ std::vector<Lookup> lookups(const Image& component, const Disc& disc, double slo
   parallel_for(component.height, [&](int y) {
     std::size_t next = first[static_cast<std::size_t>(y)];
     for (int x = 0; x < component.width; ++x) {
-      if (!on_disc(disc, x, y)) continue;
+      if (!on_disc(read, x, y)) continue;
       const Vec3 w = warp(normal_on_disc(disc_point(disc, x + 0.5, y + 0.5)), slope);
       const Vec2 t = map_of_direction(w);
       const double cx = std::clamp((t.x() + 1) / 2 * size - 0.5, 0.0, size - 1.0);
@@ -157,24 +158,26 @@ void correct(SphereMap& map, const Image& component, const std::vector<Lookup>& 
 
 }  // namespace
 
-SphereMap unwarp_to_sphere(const Image& component, const Disc& disc, double slope, int size) {
-  const Image picture = continued_past_rim(component, disc);
+SphereMap unwarp_to_sphere(const Image& component, const Disc& disc, double slope, int size, double rim) {
+  const Disc read{disc.x, disc.y, disc.radius - rim};
+  const Image picture = continued_past_rim(component, read);
+  const double widest = std::asin(read.radius / disc.radius);  // the angle of the last normal that is read
   const auto colour_at = [&](double theta, double azimuth) -> Vec3 {
     const Vec2 p = disc_pixel(disc, std::sin(theta) * Vec2(std::cos(azimuth), std::sin(azimuth)));
     return sample_sharp(picture, p.x(), p.y());
   };
-  const BlindSpot blind_spot(blind_spot_angle(slope), [&](double beyond, double azimuth) {
-    return colour_at(std::max(0.0, kPi / 2 - beyond / (1 + slope)), azimuth);
+  const BlindSpot blind_spot(kPi - (1 + slope) * widest, [&](double beyond, double azimuth) {
+    return colour_at(std::max(0.0, widest - beyond / (1 + slope)), azimuth);
   });
   SphereMap map = make_sphere_map(size, [&](const Vec3& w) -> Vec3 {
     const double across = std::hypot(w.x(), w.y());
     const double theta = std::atan2(across, w.z()) / (1 + slope);
-    if (theta > kPi / 2) return blind_spot(w);
+    if (theta > widest) return blind_spot(w);
     if (across == 0) return colour_at(0, 0);
     const Vec2 p = disc_pixel(disc, w.head<2>() * (std::sin(theta) / across));
     return sample_sharp(picture, p.x(), p.y());
   });
-  correct(map, component, lookups(component, disc, slope, size));
+  correct(map, component, lookups(component, disc, read, slope, size));
   return map;
 }
 

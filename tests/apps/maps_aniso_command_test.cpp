@@ -212,7 +212,7 @@ TEST(MapsAniso, AFullDiskLeavesNothing) {
   const test::TemporaryFolder folder;
   const fs::path out = folder / "out";
   fs::create_directory(out);
-  for (const std::string& name : {"o.png", "o.exr", "o.ktx2"}) {
+  for (const char* const name : {"o.png", "o.exr", "o.ktx2"}) {
     const auto result = run_program(
         "maps aniso filter --normals " + kWeave + " --constant 0.5 0.25 --zstd 0 -o " + (out / name).string(),
         "trap '' XFSZ; ulimit -f 24;");

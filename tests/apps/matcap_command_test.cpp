@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include <limits>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -109,6 +111,74 @@ TEST(MatcapCommand, BadPicturesAreNamedAndTheOthersOfAFolderDone) {
                 .exit_code,
             1);
   EXPECT_FALSE(std::filesystem::exists(folder / "v.ktx2"));
+}
+
+/// Runs each verb that reads a MatCap; says how it ended, and that nothing is left if it failed.
+void expect_on_each_verb(const std::filesystem::path& picture, int exit_code, const std::string& message,
+                         const std::string& options = "") {
+  const test::TemporaryFolder folder;
+  const auto path = [&](const char* name) { return (folder / name).string(); };
+  for (const std::string& verb :
+       {fmt::format("decompose {{}} -o {}", path("o.ktx2")), std::string("estimate {}"),
+        fmt::format("separate {{}} --low {} --high {}", path("l.exr"), path("h.exr"))}) {
+    const auto result =
+        run_program("matcap " + fmt::format(fmt::runtime(verb), picture.string()) + " " + options);
+    EXPECT_EQ(result.exit_code, exit_code) << verb << picture << result.output;
+    EXPECT_THAT(result.output, HasSubstr(message)) << verb;
+    if (exit_code != 0) {
+      EXPECT_THAT(result.output, HasSubstr(picture.filename().string())) << verb;
+      EXPECT_TRUE(std::filesystem::is_empty(folder.path())) << verb << picture;
+    }
+  }
+}
+
+TEST(MatcapCommand, BadPicturesAreRefusedByEachVerbWithAReason) {
+  const test::TemporaryFolder folder;
+  const auto data = test::source_dir() / "tests" / "data";
+  write_image(folder / "pixel.png", Image(1, 1, 3, 0.5F));
+  write_image(folder / "wide.png", Image(48, 32, 3, 0.5F));
+  Image nan(16, 16, 3, 0.5F);
+  nan.at(3, 4, 1) = std::numeric_limits<float>::quiet_NaN();
+  write_data(folder / "nan.exr", nan);
+  write_image(folder / "whole.png", test::example_matcap("lead", 48));
+  write_text(folder / "torn.png", read_text(folder / "whole.png").substr(0, 700));
+  expect_on_each_verb(folder / "pixel.png", 1, "at least 2 are needed");
+  expect_on_each_verb(folder / "wide.png", 1, "no sphere found");
+  expect_on_each_verb(folder / "nan.exr", 1, "not finite");
+  expect_on_each_verb(folder / "torn.png", 1, "is truncated or corrupt");
+  expect_on_each_verb(data / "animated.gif", 1, "is animated");
+  expect_on_each_verb(data / "cmyk.jpg", 1, "CMYK");
+  expect_on_each_verb(folder / "whole.png", 1, "does not fit", "--disc 24,24,30");
+}
+
+TEST(MatcapCommand, OddPicturesAreDoneByEachVerb) {
+  const test::TemporaryFolder folder;
+  write_image(folder / "black.png", Image(32, 32, 3, 0));
+  expect_on_each_verb(folder / "black.png", 0, "");
+  // A sphere smaller than its picture, before a plain background and cut out by alpha.
+  const Image lead = test::example_matcap("lead", 48);
+  Image plain(80, 64, 3, 0.9F);
+  Image alpha(80, 64, 4, 0);
+  for (int y = 0; y < 48; ++y) {
+    for (int x = 0; x < 48; ++x) {
+      if (disc_of_pixel(x, y, 48).squaredNorm() >= 1) continue;
+      plain.set_rgb(20 + x, 10 + y, lead.rgb(x, y));
+      alpha.set_rgb(20 + x, 10 + y, lead.rgb(x, y));
+      alpha.at(20 + x, 10 + y, 3) = 1;
+    }
+  }
+  write_image(folder / "plain.png", plain);
+  write_image(folder / "alpha.png", alpha);
+  for (const char* name : {"plain.png", "alpha.png"}) {
+    expect_on_each_verb(folder / name, 0, "");
+    const std::string matcap = (folder / "o.ktx2").string();
+    ASSERT_EQ(
+        run_program(fmt::format("matcap decompose {} -o {}", (folder / name).string(), matcap)).exit_code, 0);
+    const json info = json::parse(run_program(fmt::format("matcap info {} --json", matcap)).output);
+    EXPECT_NEAR(info["disc"]["x"].get<double>(), 44, 1) << name;
+    EXPECT_NEAR(info["disc"]["y"].get<double>(), 34, 1) << name;
+    EXPECT_NEAR(info["disc"]["radius"].get<double>(), 24, 1) << name;
+  }
 }
 
 }  // namespace

@@ -139,6 +139,43 @@ TEST(FilterEstimate, CrowdedPrimitivesWithinFivePercent) {
   EXPECT_LT(median(errors), 0.01);
 }
 
+// Figure 5: nine regions of one picture, spots and edges, alone on their meridian and crowded.
+TEST(FilterEstimate, NineRegionsOfOnePicture) {
+  const std::vector<Spot> alone{{0.9, 0.4, 0.004}, {1.0, 1.3, 0.008}, {0.8, 2.2, 0.002}};
+  const std::vector<Spot> crowded{
+      {0.3, 3.1, 0.003}, {0.75, 3.1, 0.005}, {1.2, 3.1, 0.002}, {0.35, 5.2, 0.003}};
+  const std::vector<Spot> caps{{1.0, 4.2, 0.002}, {1.1, 5.2, 0.002}};  // the second ends near the last spot
+  constexpr double kCap = 0.3;                                         // radius in radians
+  std::vector<double> errors;
+  for (const int size : kSizes) {
+    Image image = spots(size, alone);
+    const Image more = spots(size, crowded);
+    const Image discs = test::sphere_picture(size, [&](const Vec3& n) -> Vec3 {
+      double sum = 0;
+      for (const Spot& cap : caps) {
+        const double angle = test::angle_between(n, test::direction_at(cap.theta, cap.azimuth));
+        sum += 0.5 * std::erfc((angle - kCap) / std::sqrt(2 * cap.variance));
+      }
+      return Vec3::Constant(sum);
+    });
+    for (std::size_t i = 0; i < image.data.size(); ++i) image.data[i] += more.data[i] + discs.data[i];
+    const auto check = [&](const Spot& s, double theta, Feature feature, double bound) {
+      const FilterEstimate estimate =
+          estimate_filter(image, inscribed_disc(size, size), {region_at(size, theta, s.azimuth)}, -1, "nine");
+      const double error = std::abs(estimate.variance / s.variance - 1);
+      EXPECT_LT(error, bound) << size << " " << theta << " " << s.azimuth;
+      EXPECT_EQ(estimate.feature, feature) << size << " " << theta << " " << s.azimuth;
+      errors.push_back(error);
+    };
+    for (const Spot& s : alone) check(s, s.theta, Feature::line, 0.02);
+    for (const Spot& s : crowded) check(s, s.theta, Feature::line, 0.05);
+    check(caps[0], caps[0].theta - kCap, Feature::edge, 0.02);
+    check(caps[1], caps[1].theta - kCap, Feature::edge, 0.05);
+  }
+  EXPECT_EQ(errors.size(), 27U);
+  EXPECT_LT(median(errors), 0.01);
+}
+
 TEST(FilterEstimate, FindsTheSharpestFeatureItself) {
   for (const int size : kSizes) {
     const Image image = spots(size, {{0.35, 0.5, 0.006}, {0.9, 2.5, 0.03}, {0.7, 4.4, 0.02}});

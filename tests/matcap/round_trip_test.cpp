@@ -4,6 +4,7 @@
 #include "sateen/core/error.h"
 #include "sateen/matcap/bake.h"
 #include "sateen/matcap/decomposition_file.h"
+#include "sateen/matcap/edits.h"
 #include "sateen/matcap/warp.h"
 #include "support/matcaps.h"
 
@@ -40,6 +41,48 @@ TEST(RoundTrip, HoldsForASphereSomewhereInAPictureAndForGrain) {
   DecomposeOptions options;
   options.map_size = 128;
   EXPECT_GT(round_trip(picture, disc, options), 45);
+}
+
+/// The part of a pixel that the disc covers.
+double coverage(const Disc& disc, int x, int y) {
+  int inside = 0;
+  for (int j = 0; j < 8; ++j) {
+    for (int i = 0; i < 8; ++i)
+      inside += disc_point(disc, x + (i + 0.5) / 8, y + (j + 0.5) / 8).squaredNorm() < 1 ? 1 : 0;
+  }
+  return inside / 64.0;
+}
+
+// A sphere drawn on black: the steps of its edge must not turn with the light.
+TEST(RoundTrip, TheEdgeOfADrawnSphereComesBackButDoesNotTurn) {
+  constexpr int kSize = 192;
+  const Disc disc = inscribed_disc(kSize, kSize);
+  const Image clean = test::sphere_picture(kSize, [](const Vec3& n) -> Vec3 {
+    return {0.5 + 0.2 * n.x(), 0.5 - 0.2 * n.y(), 0.4 + 0.2 * n.x() * n.y()};
+  });
+  Image drawn = clean;
+  for (int y = 0; y < kSize; ++y) {
+    for (int x = 0; x < kSize; ++x)
+      drawn.set_rgb(x, y, clean.rgb(x, y) * static_cast<float>(coverage(disc, x, y)));
+  }
+  EXPECT_GT(round_trip(drawn, disc, {}), 50);
+  const MatcapDecomposition without = decompose(clean, disc, {}, "clean");
+  const MatcapDecomposition with = decompose(drawn, disc, {}, "drawn");
+  EXPECT_TRUE(without.rim.empty());
+  EXPECT_FALSE(with.rim.empty());
+  for (const Vec3& angles : {Vec3(kPi / 4, 0, 0), Vec3(0, kPi / 2, 0)}) {
+    const std::vector<Edit> turn{Turn{angles}};
+    const Image expected = bake(apply_edits(without, turn));
+    const Image turned = bake(apply_edits(with, turn));
+    float worst = 0;
+    for (int y = 0; y < kSize; ++y) {
+      for (int x = 0; x < kSize; ++x) {
+        if (on_disc(disc, x, y))
+          worst = std::max(worst, (turned.rgb(x, y) - expected.rgb(x, y)).cwiseAbs().maxCoeff());
+      }
+    }
+    EXPECT_LT(worst, 0.06F) << angles;  // the edge is darker by up to 0.7
+  }
 }
 
 TEST(RoundTrip, BlackPicturesStayBlack) {

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+#include "sateen/matcap/rim.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sateen {
+namespace {
+
+constexpr double kWidth = 1.5;    // pixels: those that mix with the background, also in a resized picture
+constexpr double kInside = 1.5;   // pixels further in, where colours are compared
+constexpr double kSmooth = 0.03;  // of the mean value: a smaller mean difference is no mixing
+constexpr double kSmallest = 16;  // pixels: smaller spheres have none to lose
+
+}  // namespace
+
+bool on_rim(const Disc& disc, double width, int x, int y) {
+  return on_disc(disc, x, y) && !on_disc({disc.x, disc.y, disc.radius - width}, x, y);
+}
+
+Rim rim_of(const Image& picture, const Disc& disc, AddUpSpace space) {
+  if (disc.radius < kSmallest) return {};
+  double difference = 0;
+  double sum = 0;
+  for (int y = 0; y < picture.height; ++y) {
+    for (int x = 0; x < picture.width; ++x) {
+      if (!on_rim(disc, kWidth, x, y)) continue;
+      const Vec2 p = disc_point(disc, x + 0.5, y + 0.5);
+      const Vec2 q = disc_pixel(disc, p * (1 - (kWidth + kInside) / disc.radius) / p.norm());
+      Vec3 inside;
+      sample_bilinear(picture, q.x(), q.y(), {inside.data(), 3});
+      difference += (picture.rgb(x, y).cast<double>() - inside).cwiseAbs().sum();
+      sum += inside.cwiseAbs().sum();
+    }
+  }
+  if (difference <= kSmooth * sum) return {};
+  return rim_pixels(from_add_up_space(picture, space), disc, kWidth);
+}
+
+Rim rim_pixels(const Image& picture, const Disc& disc, double width) {
+  Rim rim{width, {}};
+  if (!(width > 0)) return rim;
+  for (int y = 0; y < picture.height; ++y) {
+    for (int x = 0; x < picture.width; ++x) {
+      if (on_rim(disc, width, x, y)) rim.colours.push_back(picture.rgb(x, y));
+    }
+  }
+  return rim;
+}
+
+void put_back(const Rim& rim, const Disc& disc, Image& picture) {
+  std::size_t next = 0;
+  for (int y = 0; y < picture.height; ++y) {
+    for (int x = 0; x < picture.width && next < rim.colours.size(); ++x) {
+      if (on_rim(disc, rim.width, x, y)) picture.set_rgb(x, y, rim.colours[next++]);
+    }
+  }
+}
+
+}  // namespace sateen
