@@ -125,11 +125,11 @@ void correct(SphereMap& map, const Image& component, const std::vector<Lookup>& 
     const auto weights = l.weights();
     for (std::size_t i = 0; i < 4; ++i) received[(l.texel + corner[i]) / 3] += weights[i];
   }
-  struct Step {
+  struct Correction {
     std::size_t texel;  // index of its first channel
     float factor;
   };
-  std::vector<Step> steps;  // of texels that some pixel reads
+  std::vector<Correction> steps;  // of texels that some pixel reads
   for (std::size_t i = 0; i < received.size(); ++i) {
     if (received[i] > 1e-4F) steps.push_back({3 * i, 1 / std::max(received[i], 0.25F)});
   }
@@ -144,7 +144,7 @@ void correct(SphereMap& map, const Image& component, const std::vector<Lookup>& 
         for (std::size_t i = 0; i < 4; ++i) change[at + corner[i]] += weights[i] * error;
       }
     }
-    for (const Step& step : steps) {
+    for (const Correction& step : steps) {
       for (std::size_t c = step.texel; c < step.texel + 3; ++c) {
         texels[c] += step.factor * change[c];
         change[c] = 0;
