@@ -5,21 +5,28 @@
 
 uniform sampler2D mapped_normals;     // x and y as n / 2 + 1/2
 uniform sampler2D mapped_lobes;
-uniform sampler2D mapped_albedo;      // scale and bias by the view's cosine and sqrt(alpha)
+uniform sampler2D mapped_albedo;      // scale and bias: GgxAlbedoTable
 uniform bool mapped_root;             // the encoding: root, otherwise correlation
 uniform float mapped_green;           // -1 for normals with green down
 uniform vec2 mapped_repeat;
 uniform vec3 mapped_f0;
 uniform int mapped_lobe_samples;      // 0: no environment map to reflect
 
-const float MAPPED_ALBEDO_SIZE = 32.0;
+const vec2 MAPPED_ALBEDO_TILE = vec2(16.0, 9.0);
+const vec2 MAPPED_ALBEDO_TILES = vec2(12.0, 8.0);
 
-// Reflectance in uniform light. `view` is in the frame of the lobe's axis.
+// Reflectance in uniform light. `view` is in the frame of the lobe's axis, along the larger alpha.
 vec3 mapped_reflectance(vec2 alpha, vec3 view) {
-  vec3 squares = view * view;
-  float met = sqrt(dot(squares, vec3(alpha * alpha, alpha.x * alpha.y)));
-  vec2 at = (vec2(view.z, sqrt(met)) * (MAPPED_ALBEDO_SIZE - 1.0) + 0.5) / MAPPED_ALBEDO_SIZE;
-  vec2 albedo = textureLod(mapped_albedo, at, 0.0).xy;
+  float across = view.y * view.y / max(dot(view.xy, view.xy), 1e-12);
+  vec2 tile = sqrt(vec2(alpha.x, alpha.y / alpha.x)) * (MAPPED_ALBEDO_TILES - 1.0);
+  vec2 first = min(floor(tile), MAPPED_ALBEDO_TILES - 2.0);
+  vec2 blend = tile - first;
+  vec2 inside = vec2(sqrt(clamp(view.z, 0.0, 1.0)), across) * (MAPPED_ALBEDO_TILE - 1.0) + 0.5;
+  vec2 next = 1.0 / MAPPED_ALBEDO_TILES;
+  vec2 at = first * next + inside * next / MAPPED_ALBEDO_TILE;
+  vec2 upper = mix(textureLod(mapped_albedo, at, 0.0).xy, textureLod(mapped_albedo, at + vec2(next.x, 0.0), 0.0).xy, blend.x);
+  vec2 lower = mix(textureLod(mapped_albedo, at + vec2(0.0, next.y), 0.0).xy, textureLod(mapped_albedo, at + next, 0.0).xy, blend.x);
+  vec2 albedo = mix(upper, lower, blend.y);
   return mapped_f0 * albedo.x + albedo.y;
 }
 

@@ -64,13 +64,19 @@ void round_to_halves(std::vector<Image>& levels) {
 
 }  // namespace
 
-GgxAlbedoTable::GgxAlbedoTable() : table_(kSize, kSize, 2) {
-  parallel_for(kSize, [&](int y) {
-    const double root = static_cast<double>(y) / (kSize - 1);
-    const double alpha = std::max(root * root, kMinimumAlpha);
-    for (int x = 0; x < kSize; ++x) {
-      const double cosine = std::max(static_cast<double>(x) / (kSize - 1), kLowestView);
-      const GgxAlbedo albedo = ggx_albedo({alpha, alpha, 0}, {std::sqrt(1 - cosine * cosine), 0, cosine}, 24);
+GgxAlbedoTable::GgxAlbedoTable() : table_(kCosines * kAlphas, kAzimuths * kRatios, 2) {
+  const auto part = [](int i, int count) { return static_cast<double>(i) / (count - 1); };
+  parallel_for(table_.height, [&](int y) {
+    const double ratio = part(y / kAzimuths, kRatios);
+    const double azimuth = std::asin(std::sqrt(part(y % kAzimuths, kAzimuths)));
+    for (int x = 0; x < table_.width; ++x) {
+      const double root = part(x / kCosines, kAlphas);
+      const double alpha = std::max(root * root, kMinimumAlpha);
+      const double high = part(x % kCosines, kCosines);
+      const double cosine = std::max(high * high, kLowestView);
+      const double sine = std::sqrt(1 - cosine * cosine);
+      const GgxAlbedo albedo = ggx_albedo({alpha, std::max(alpha * ratio * ratio, kMinimumAlpha), 0},
+                                          {sine * std::cos(azimuth), sine * std::sin(azimuth), cosine}, 20);
       table_.at(x, y, 0) = static_cast<float>(albedo.scale);
       table_.at(x, y, 1) = static_cast<float>(albedo.bias);
     }
@@ -78,18 +84,31 @@ GgxAlbedoTable::GgxAlbedoTable() : table_(kSize, kSize, 2) {
 }
 
 GgxAlbedo GgxAlbedoTable::operator()(double alpha_t, double alpha_b, const Vec3& view) const {
-  const double met =
-      std::sqrt(view.x() * view.x() * alpha_t * alpha_t + view.y() * view.y() * alpha_b * alpha_b +
-                view.z() * view.z() * alpha_t * alpha_b);
-  std::array<double, 2> read{};
-  sample_bilinear(table_, view.z() * (kSize - 1) + 0.5, std::sqrt(met) * (kSize - 1) + 0.5, read);
-  return {read[0], read[1]};
+  const double across = view.y() * view.y() / std::max(view.head<2>().squaredNorm(), 1e-12);
+  const Vec2 tile(std::sqrt(alpha_t) * (kAlphas - 1), std::sqrt(alpha_b / alpha_t) * (kRatios - 1));
+  const int left = std::min(static_cast<int>(tile.x()), kAlphas - 2);
+  const int top = std::min(static_cast<int>(tile.y()), kRatios - 2);
+  GgxAlbedo sum;
+  for (int j = 0; j < 2; ++j) {
+    for (int i = 0; i < 2; ++i) {
+      std::array<double, 2> read{};
+      sample_bilinear(
+          table_, (left + i) * kCosines + std::sqrt(std::clamp(view.z(), 0.0, 1.0)) * (kCosines - 1) + 0.5,
+          (top + j) * kAzimuths + across * (kAzimuths - 1) + 0.5, read);
+      const double weight = (i == 0 ? 1 - (tile.x() - left) : tile.x() - left) *
+                            (j == 0 ? 1 - (tile.y() - top) : tile.y() - top);
+      sum.scale += weight * read[0];
+      sum.bias += weight * read[1];
+    }
+  }
+  return sum;
 }
 
 std::shared_ptr<const TextureData> GgxAlbedoTable::texture() const {
   auto texture = std::make_shared<TextureData>();
   texture->format = TextureData::Format::rg32f;
-  texture->width = texture->height = kSize;
+  texture->width = table_.width;
+  texture->height = table_.height;
   std::vector<std::byte>& bytes = texture->levels.emplace_back(table_.data.size() * sizeof(float));
   std::memcpy(bytes.data(), table_.data.data(), bytes.size());
   return texture;

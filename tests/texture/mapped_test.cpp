@@ -148,6 +148,24 @@ TEST(Mapped, FlatMapsUnderLampsAreTheLayeredMaterial) {
   }
 }
 
+TEST(Mapped, AlbedoTableIsCloseToTheIntegral) {
+  const GgxAlbedoTable table;
+  double worst = 0;
+  for (const auto& [t, b] : {std::pair{0.05, 0.05}, std::pair{0.3, 0.3}, std::pair{0.5, 0.1},
+                             std::pair{0.9, 0.3}, std::pair{0.87, 0.09}}) {
+    for (const double cosine : {0.02, 0.05, 0.1, 0.25, 0.5, 0.75, 0.95}) {
+      for (double phi = 0; phi < kPi; phi += 0.3) {
+        const double sine = std::sqrt(1 - cosine * cosine);
+        const Vec3 view(sine * std::cos(phi), sine * std::sin(phi), cosine);
+        const GgxAlbedo expected = ggx_albedo({t, b, 0}, view);
+        const GgxAlbedo got = table(t, b, view);
+        worst = std::max({worst, std::abs(got.scale - expected.scale), std::abs(got.bias - expected.bias)});
+      }
+    }
+  }
+  EXPECT_LT(worst, 0.03);
+}
+
 TEST(Mapped, HighlightsRunAlongTheLargerAlpha) {
   // Axis at 30 degrees from U towards V: the highlight under the eye's own lamp is long that way on a square.
   MappedAppearance::Maps maps;
