@@ -63,10 +63,21 @@ float decomposed_silhouette(vec4 s, float theta) {
   return max(0.0, 1.0 + t * t * ((3.0 - 2.0 * t) + (t - 1.0) * s.y) * s.z);
 }
 
-float decomposed_decode(float v) {
-  float a = abs(v);
-  float linear = a <= 0.04045 ? a / 12.92 : pow((a + 0.055) / 1.055, 2.4);
-  return v < 0.0 ? -linear : linear;
+vec3 decomposed_decode(vec3 v) {
+  vec3 a = abs(v);
+  return sign(v) * mix(pow((a + 0.055) / 1.055, vec3(2.4)), a / 12.92, lessThanEqual(a, vec3(0.04045)));
+}
+
+// The usual case: nothing modulated, no silhouettes, a diffuse low part (mu = 0). A function of its own, since
+// software renderers run both sides of every branch.
+vec3 matcap_decomposition_plain(Surface s) {
+  vec3 n = vec3(s.eye_normal.xy, max(s.eye_normal.z, 0.0));
+  float theta = atan(length(n.xy), n.z);
+  vec3 low_way = decomposed_light_back * n;
+  vec3 high_way = decomposed_light_back * decomposed_warp(n, decomposed_slope(decomposed_high_variance), theta);
+  vec3 sum = decomposed_low_color * decomposed_lookup(low_way, 0.0, 0.0) +
+             decomposed_high_color * decomposed_lookup(high_way, 2.0, 0.0);
+  return (decomposed_display != 0 ? decomposed_decode(sum) : sum) * s.occlusion;
 }
 
 vec3 matcap_decomposition(Surface s) {
@@ -87,8 +98,5 @@ vec3 matcap_decomposition(Surface s) {
   vec3 sum = low_color * decomposed_lookup(low_way, 0.0, 0.0) * decomposed_silhouette(decomposed_low_silhouette, theta) +
              high_color * decomposed_lookup(high_way, 2.0, added > 0.0 ? decomposed_level(added) : 0.0) *
                  decomposed_silhouette(decomposed_high_silhouette, theta);
-  if (decomposed_display != 0) {
-    sum = vec3(decomposed_decode(sum.r), decomposed_decode(sum.g), decomposed_decode(sum.b));
-  }
-  return sum * occlusion;
+  return (decomposed_display != 0 ? decomposed_decode(sum) : sum) * occlusion;
 }

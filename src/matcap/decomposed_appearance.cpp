@@ -146,8 +146,9 @@ ShaderBinding DecomposedAppearance::shader() const {
   const std::size_t count = std::min(levels.size(), kMostLevels);
   for (std::size_t i = 0; i < count; ++i) variances[i].x() = static_cast<float>(levels[i]);
   variances[0].y() = static_cast<float>(count);
+  const bool plain = !maps_.any() && !low.silhouette && !high.silhouette && matcap[Part::low].slope() == 0;
   return {.files = {"matcap_decomposition.glsl"},
-          .function = "matcap_decomposition",
+          .function = plain ? "matcap_decomposition_plain" : "matcap_decomposition",
           .uniforms = {{"decomposed_variances", variances},
                        {"decomposed_light_back", Eigen::Matrix3f(matcap_.light.transpose().cast<float>())},
                        {"decomposed_low_slope", static_cast<float>(matcap[Part::low].slope())},

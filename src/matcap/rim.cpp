@@ -9,7 +9,7 @@ namespace {
 
 constexpr double kWidth = 1.5;    // pixels: those that mix with the background, also in a resized picture
 constexpr double kInside = 1.5;   // pixels further in, where colours are compared
-constexpr double kSmooth = 0.03;  // of the mean value: a smaller mean difference is no mixing
+constexpr double kSmooth = 0.03;  // of the mean value: a rim no darker than that is not mixed
 constexpr double kSmallest = 16;  // pixels: smaller spheres have none to lose
 
 }  // namespace
@@ -26,10 +26,20 @@ Rim rim_of(const Image& picture, const Disc& disc, AddUpSpace space) {
     for (int x = 0; x < picture.width; ++x) {
       if (!on_rim(disc, kWidth, x, y)) continue;
       const Vec2 p = disc_point(disc, x + 0.5, y + 0.5);
-      const Vec2 q = disc_pixel(disc, p * (1 - (kWidth + kInside) / disc.radius) / p.norm());
-      Vec3 inside;
-      sample_bilinear(picture, q.x(), q.y(), {inside.data(), 3});
-      difference += (picture.rgb(x, y).cast<double>() - inside).cwiseAbs().sum();
+      // Linear in the normal's z: smooth shading falls steeply towards the rim.
+      const auto z_of = [](double r) { return std::sqrt(std::max(0.0, 1 - r * r)); };
+      const auto colour_at = [&](double r) {
+        const Vec2 q = disc_pixel(disc, p * r / p.norm());
+        Vec3 colour;
+        sample_bilinear(picture, q.x(), q.y(), {colour.data(), 3});
+        return colour;
+      };
+      const double near = 1 - (kWidth + kInside) / disc.radius;
+      const double far = near - kInside / disc.radius;
+      const Vec3 inside = colour_at(near);
+      const double steps = (z_of(near) - z_of(p.norm())) / (z_of(far) - z_of(near));
+      const Vec3 expected = inside + steps * (inside - colour_at(far));
+      difference += (expected - picture.rgb(x, y).cast<double>()).sum();
       sum += inside.cwiseAbs().sum();
     }
   }
