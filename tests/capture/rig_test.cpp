@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <opencv2/imgcodecs.hpp>
@@ -125,7 +126,7 @@ TEST(CaptureRig, ADamagedPhotographIsNamed) {
   const test::TemporaryFolder folder;
   for (int i = 0; i < s.frames; ++i) {
     Picture8 picture = s.render(i);
-    cv::imwrite((folder / ("f" + std::to_string(10 + i) + ".jpg")).string(),
+    cv::imwrite((folder / (fmt::format("f{}.jpg", 10 + i))).string(),
                 cv::Mat(s.height, s.width, CV_8UC3, picture.rgb.data()));
   }
   auto bytes = read_bytes(folder / "f15.jpg");
