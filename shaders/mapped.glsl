@@ -17,11 +17,11 @@ const vec2 MAPPED_ALBEDO_TILES = vec2(12.0, 8.0);
 
 // Reflectance in uniform light. `view` is in the frame of the lobe's axis, along the larger alpha.
 vec3 mapped_reflectance(vec2 alpha, vec3 view) {
-  float across = view.y * view.y / max(dot(view.xy, view.xy), 1e-12);
+  float along = abs(view.x) / max(length(view.xy), 1e-6);
   vec2 tile = sqrt(vec2(alpha.x, alpha.y / alpha.x)) * (MAPPED_ALBEDO_TILES - 1.0);
   vec2 first = min(floor(tile), MAPPED_ALBEDO_TILES - 2.0);
   vec2 blend = tile - first;
-  vec2 inside = vec2(sqrt(clamp(view.z, 0.0, 1.0)), across) * (MAPPED_ALBEDO_TILE - 1.0) + 0.5;
+  vec2 inside = vec2(sqrt(clamp(view.z, 0.0, 1.0)), along) * (MAPPED_ALBEDO_TILE - 1.0) + 0.5;
   vec2 next = 1.0 / MAPPED_ALBEDO_TILES;
   vec2 at = first * next + inside * next / MAPPED_ALBEDO_TILE;
   vec2 upper = mix(textureLod(mapped_albedo, at, 0.0).xy, textureLod(mapped_albedo, at + vec2(next.x, 0.0), 0.0).xy, blend.x);

@@ -68,7 +68,7 @@ GgxAlbedoTable::GgxAlbedoTable() : table_(kCosines * kAlphas, kAzimuths * kRatio
   const auto part = [](int i, int count) { return static_cast<double>(i) / (count - 1); };
   parallel_for(table_.height, [&](int y) {
     const double ratio = part(y / kAzimuths, kRatios);
-    const double azimuth = std::asin(std::sqrt(part(y % kAzimuths, kAzimuths)));
+    const double azimuth = std::acos(part(y % kAzimuths, kAzimuths));
     for (int x = 0; x < table_.width; ++x) {
       const double root = part(x / kCosines, kAlphas);
       const double alpha = std::max(root * root, kMinimumAlpha);
@@ -84,7 +84,7 @@ GgxAlbedoTable::GgxAlbedoTable() : table_(kCosines * kAlphas, kAzimuths * kRatio
 }
 
 GgxAlbedo GgxAlbedoTable::operator()(double alpha_t, double alpha_b, const Vec3& view) const {
-  const double across = view.y() * view.y() / std::max(view.head<2>().squaredNorm(), 1e-12);
+  const double along = std::abs(view.x()) / std::max(view.head<2>().norm(), 1e-6);
   const Vec2 tile(std::sqrt(alpha_t) * (kAlphas - 1), std::sqrt(alpha_b / alpha_t) * (kRatios - 1));
   const int left = std::min(static_cast<int>(tile.x()), kAlphas - 2);
   const int top = std::min(static_cast<int>(tile.y()), kRatios - 2);
@@ -94,7 +94,7 @@ GgxAlbedo GgxAlbedoTable::operator()(double alpha_t, double alpha_b, const Vec3&
       std::array<double, 2> read{};
       sample_bilinear(
           table_, (left + i) * kCosines + std::sqrt(std::clamp(view.z(), 0.0, 1.0)) * (kCosines - 1) + 0.5,
-          (top + j) * kAzimuths + across * (kAzimuths - 1) + 0.5, read);
+          (top + j) * kAzimuths + along * (kAzimuths - 1) + 0.5, read);
       const double weight = (i == 0 ? 1 - (tile.x() - left) : tile.x() - left) *
                             (j == 0 ? 1 - (tile.y() - top) : tile.y() - top);
       sum.scale += weight * read[0];

@@ -19,7 +19,7 @@ class GgxAlbedoTable {
   /// ratios up to 10 : 1, alpha_t of 0.04 or more and cosines of 0.02 or more.
   GgxAlbedo operator()(double alpha_t, double alpha_b, const Vec3& view) const;
   /// rg32f, scale and bias: tiles side by side, each across the root of the view's cosine and down the
-  /// squared sine of its azimuth; tiles across the root of alpha_t and down that of alpha_b / alpha_t. Every
+  /// cosine of its azimuth; tiles across the root of alpha_t and down that of alpha_b / alpha_t. Every
   /// coordinate runs from 0 to 1 between the middles of the first and last texel or tile.
   std::shared_ptr<const TextureData> texture() const;
   static constexpr int kCosines = 16;
