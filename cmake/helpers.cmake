@@ -34,7 +34,7 @@ function(sateen_test name)
       math(EXPR index "${shard} - 1")
       add_test(NAME ${name}.${shard} COMMAND test_${name})
       set_tests_properties(${name}.${shard} PROPERTIES
-        ENVIRONMENT "GTEST_TOTAL_SHARDS=${SATEEN_TEST_SHARDS};GTEST_SHARD_INDEX=${index}" TIMEOUT 600)
+        ENVIRONMENT "GTEST_TOTAL_SHARDS=${SATEEN_TEST_SHARDS};GTEST_SHARD_INDEX=${index}" TIMEOUT 1200)
     endforeach()
   else()
     gtest_discover_tests(test_${name} TEST_PREFIX "${name}." DISCOVERY_MODE PRE_TEST PROPERTIES TIMEOUT 300)
