@@ -1,6 +1,7 @@
 // MatCap decomposition (Zubiaga et al. 2015, section 5): warp, turn the light back, look both parts up, add them.
 // SPDX-License-Identifier: MIT
-// The same formulas as src/matcap/edited_matcap.cpp. Not for anisotropic materials: the filter is round.
+// The same formulas as src/matcap/edited_matcap.cpp, for looks that textures vary over the surface; all others are a
+// function of the normal alone (matcap_by_normal.glsl). Not for anisotropic materials: the filter is round.
 // needs: surface.glsl
 
 #define DECOMPOSED_LEVELS 12
@@ -15,7 +16,6 @@ uniform vec3 decomposed_high_color;
 uniform vec4 decomposed_low_silhouette;             // theta0, m1, alpha1 - mean of the base colour, 1 if there is one
 uniform vec4 decomposed_high_silhouette;
 uniform int decomposed_display;                     // 1: the parts add up in sRGB-encoded values
-uniform int decomposed_modulated;                   // 1: the four textures below vary the look
 uniform float decomposed_roughness_scale;           // radians^2 of added variance where the texture is 1
 uniform sampler2D decomposed_low_texture;           // factors; repeated over uv
 uniform sampler2D decomposed_high_texture;
@@ -68,29 +68,11 @@ vec3 decomposed_decode(vec3 v) {
   return sign(v) * mix(pow((a + 0.055) / 1.055, vec3(2.4)), a / 12.92, lessThanEqual(a, vec3(0.04045)));
 }
 
-// The usual case: nothing modulated, no silhouettes, a diffuse low part (mu = 0). A function of its own, since
-// software renderers run both sides of every branch.
-vec3 matcap_decomposition_plain(Surface s) {
-  vec3 n = vec3(s.eye_normal.xy, max(s.eye_normal.z, 0.0));
-  float theta = atan(length(n.xy), n.z);
-  vec3 low_way = decomposed_light_back * n;
-  vec3 high_way = decomposed_light_back * decomposed_warp(n, decomposed_slope(decomposed_high_variance), theta);
-  vec3 sum = decomposed_low_color * decomposed_lookup(low_way, 0.0, 0.0) +
-             decomposed_high_color * decomposed_lookup(high_way, 2.0, 0.0);
-  return (decomposed_display != 0 ? decomposed_decode(sum) : sum) * s.occlusion;
-}
-
 vec3 matcap_decomposition(Surface s) {
-  vec3 low_color = decomposed_low_color;
-  vec3 high_color = decomposed_high_color;
-  float added = 0.0;
-  float occlusion = s.occlusion;
-  if (decomposed_modulated != 0) {
-    low_color *= texture(decomposed_low_texture, s.uv).rgb;
-    high_color *= texture(decomposed_high_texture, s.uv).rgb;
-    added = decomposed_roughness_scale * texture(decomposed_roughness_texture, s.uv).r;
-    occlusion *= texture(decomposed_occlusion_texture, s.uv).r;
-  }
+  vec3 low_color = decomposed_low_color * texture(decomposed_low_texture, s.uv).rgb;
+  vec3 high_color = decomposed_high_color * texture(decomposed_high_texture, s.uv).rgb;
+  float added = decomposed_roughness_scale * texture(decomposed_roughness_texture, s.uv).r;
+  float occlusion = s.occlusion * texture(decomposed_occlusion_texture, s.uv).r;
   vec3 n = vec3(s.eye_normal.xy, max(s.eye_normal.z, 0.0));
   float theta = atan(length(n.xy), n.z);
   vec3 low_way = decomposed_light_back * decomposed_warp(n, decomposed_low_slope, theta);

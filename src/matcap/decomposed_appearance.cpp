@@ -10,6 +10,7 @@
 
 #include "sateen/core/direction.h"
 #include "sateen/core/error.h"
+#include "sateen/core/parallel.h"
 #include "sateen/core/picture_texture.h"
 #include "sateen/io/file.h"
 #include "sateen/io/image.h"
@@ -24,6 +25,7 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 
 constexpr std::size_t kMostLevels = 12;  // DECOMPOSED_LEVELS of the shader
+constexpr int kMostNormals = 2048;       // texels across the table of normals, 33 MB
 
 /// Bilinear sample of a picture that repeats over uv, v up.
 Vec3 sample_repeated(const Image& image, const Vec2& uv) {
@@ -40,6 +42,11 @@ Vec3 sample_repeated(const Image& image, const Vec2& uv) {
   const double fy = y - y0;
   return (1 - fy) * ((1 - fx) * at(x0, y0) + fx * at(x0 + 1, y0)) +
          fy * ((1 - fx) * at(x0, y0 + 1) + fx * at(x0 + 1, y0 + 1));
+}
+
+/// Normals that look away, as interpolation makes them, are taken to the rim.
+Vec3 facing(const Vec3& n) {
+  return n.z() >= 0 ? n : Vec3(n.x(), n.y(), 0).normalized();
 }
 
 Vec4f silhouette_uniform(const PartLook& look) {
@@ -61,6 +68,23 @@ std::shared_ptr<const TextureData> maps_texture(const MatcapDecomposition& matca
   texture->depth = 4;
   texture->levels = half_levels(matcap);
   return texture;
+}
+
+/// evaluate() over the eye-frame normals, the front half of a dual paraboloid map. The warp spreads a sphere
+/// map over half the angle: at twice its size this has its density, at four times it keeps edges one texel
+/// wide.
+std::shared_ptr<const TextureData> normals_texture(const EditedMatcap& matcap) {
+  const int size = std::min(4 * matcap.matcap[Part::high].map.levels.front().size(), kMostNormals);
+  Image table(size, size, 3);
+  parallel_for(size, [&](int y) {
+    for (int x = 0; x < size; ++x) {
+      const Vec3 n = direction_of_texel(x, y, size, false);
+      // Filtering at the horizon reads one texel of the normals that look away.
+      if (n.z() < -4.0 / size) continue;
+      table.set_rgb(x, y, evaluate(matcap, facing(n)).cast<float>());
+    }
+  });
+  return std::make_shared<const TextureData>(picture_texture(table));
 }
 
 }  // namespace
@@ -132,12 +156,16 @@ Vec3 DecomposedAppearance::evaluate(const Surface& surface) const {
     modulation.added_variance = maps_.roughness_scale * sample_repeated(maps_.roughness, surface.uv).x();
   }
   if (!maps_.occlusion.empty()) modulation.occlusion *= sample_repeated(maps_.occlusion, surface.uv).x();
-  Vec3 n = surface.eye_normal;
-  n.z() = std::max(n.z(), 0.0);
-  return sateen::evaluate(matcap_, n, modulation);
+  return sateen::evaluate(matcap_, facing(surface.eye_normal), modulation);
 }
 
 ShaderBinding DecomposedAppearance::shader() const {
+  if (!maps_.any()) {
+    return {.files = {"matcap_by_normal.glsl"},
+            .function = "matcap_by_normal",
+            .uniforms = {},
+            .textures = {{"matcap_normals", normals_texture(matcap_)}}};
+  }
   const MatcapDecomposition& matcap = matcap_.matcap;
   const PartLook& low = matcap_.look(Part::low);
   const PartLook& high = matcap_.look(Part::high);
@@ -146,9 +174,8 @@ ShaderBinding DecomposedAppearance::shader() const {
   const std::size_t count = std::min(levels.size(), kMostLevels);
   for (std::size_t i = 0; i < count; ++i) variances[i].x() = static_cast<float>(levels[i]);
   variances[0].y() = static_cast<float>(count);
-  const bool plain = !maps_.any() && !low.silhouette && !high.silhouette && matcap[Part::low].slope() == 0;
   return {.files = {"matcap_decomposition.glsl"},
-          .function = plain ? "matcap_decomposition_plain" : "matcap_decomposition",
+          .function = "matcap_decomposition",
           .uniforms = {{"decomposed_variances", variances},
                        {"decomposed_light_back", Eigen::Matrix3f(matcap_.light.transpose().cast<float>())},
                        {"decomposed_low_slope", static_cast<float>(matcap[Part::low].slope())},
@@ -158,7 +185,6 @@ ShaderBinding DecomposedAppearance::shader() const {
                        {"decomposed_low_silhouette", silhouette_uniform(low)},
                        {"decomposed_high_silhouette", silhouette_uniform(high)},
                        {"decomposed_display", matcap.space == AddUpSpace::display ? 1 : 0},
-                       {"decomposed_modulated", maps_.any() ? 1 : 0},
                        {"decomposed_roughness_scale", static_cast<float>(maps_.roughness_scale)}},
           .textures = {{"decomposed_maps", maps_texture(matcap)},
                        modulation_texture("decomposed_low_texture", maps_.low_color, 1),
