@@ -9,6 +9,7 @@
 
 #include "command.h"
 #include "commands.h"
+#include "sateen/core/allocation.h"
 #include "sateen/core/error.h"
 
 namespace {
@@ -128,6 +129,7 @@ int run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   using sateen::cli::say;
+  sateen::keep_freed_memory();
   try {
     return run(argc, argv);
   } catch (const sateen::Error& error) {

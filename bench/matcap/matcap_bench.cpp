@@ -8,6 +8,7 @@
 
 #include <benchmark/benchmark.h>
 
+#include "sateen/core/allocation.h"
 #include "sateen/core/image.h"
 #include "sateen/core/parallel.h"
 #include "sateen/matcap/decomposition.h"
@@ -102,6 +103,7 @@ BENCHMARK(flat_separation)
     ->UseRealTime();
 
 void decomposition(benchmark::State& state) {
+  keep_freed_memory();  // as the program does
   const int size = static_cast<int>(state.range(0));
   const Image image = test::example_matcap("ceramic", size);
   const Disc disc = inscribed_disc(size, size);

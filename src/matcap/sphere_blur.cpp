@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "sateen/matcap/sphere_blur.h"
 
+#include <Eigen/Core>
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <vector>
 
 #include "sateen/core/parallel.h"
 
@@ -17,87 +18,114 @@ constexpr double kTexelsOfBlur = 0.75;
 constexpr double kLookupBlur = 0.1;
 constexpr int kSmallest = 4;  // texels across the last level
 
-/// The texels of both hemispheres in planes, with direction and solid angle (0 past the equator).
-struct Texels {
+/// So many neighbours in a row are weighed at once.
+constexpr std::size_t kLanes = 4;
+using Lanes = Eigen::Array<float, kLanes, 1>;
+
+/// One number for each texel of a map, row by row, and room to read whole lanes from the last.
+using Plane = std::vector<float>;
+
+Plane plane_of(int size) {
+  return Plane(static_cast<std::size_t>(size) * static_cast<std::size_t>(size) + kLanes, 0.0F);
+}
+
+std::size_t texel_index(int size, int x, int y) {
+  return static_cast<std::size_t>(y) * static_cast<std::size_t>(size) + static_cast<std::size_t>(x);
+}
+
+/// Directions and solid angles (0 past the equator) of the front map's texels; the back's have -z.
+struct Geometry {
   int size = 0;
-  std::vector<float> x, y, z, weight, r, g, b;
+  Plane x, y, z, weight;
 };
 
-Texels texels_of(const Image& image, bool back) {
-  Texels t;
-  t.size = image.width;
-  const std::size_t n = static_cast<std::size_t>(t.size) * static_cast<std::size_t>(t.size);
-  for (auto* plane : {&t.x, &t.y, &t.z, &t.weight, &t.r, &t.g, &t.b}) plane->resize(n);
-  parallel_for(t.size, [&](int row) {
-    for (int column = 0; column < t.size; ++column) {
-      const std::size_t i =
-          static_cast<std::size_t>(row) * static_cast<std::size_t>(t.size) + static_cast<std::size_t>(column);
-      const Vec2 p(2 * (column + 0.5) / t.size - 1, 1 - 2 * (row + 0.5) / t.size);
-      const Vec3 w = direction_of_map(p, back);
-      t.x[i] = static_cast<float>(w.x());
-      t.y[i] = static_cast<float>(w.y());
-      t.z[i] = static_cast<float>(w.z());
+Geometry geometry_of(int size) {
+  Geometry g{size, plane_of(size), plane_of(size), plane_of(size), plane_of(size)};
+  parallel_for(size, [&](int row) {
+    for (int column = 0; column < size; ++column) {
+      const std::size_t i = texel_index(size, column, row);
+      const Vec2 p(2 * (column + 0.5) / size - 1, 1 - 2 * (row + 0.5) / size);
+      const Vec3 w = direction_of_map(p, false);
+      g.x[i] = static_cast<float>(w.x());
+      g.y[i] = static_cast<float>(w.y());
+      g.z[i] = static_cast<float>(w.z());
       // Solid angle per texel area, 4 / (1 + t^2)^2; the equator cuts texels, which fades over one texel's
       // width.
       const double r2 = p.squaredNorm();
-      const double inside = std::clamp((1 - std::sqrt(r2)) * t.size / 2 + 0.5, 0.0, 1.0);
-      t.weight[i] = static_cast<float>(inside * 4 / ((1 + r2) * (1 + r2)));
-      t.r[i] = image.data[3 * i];
-      t.g[i] = image.data[3 * i + 1];
-      t.b[i] = image.data[3 * i + 2];
+      const double inside = std::clamp((1 - std::sqrt(r2)) * size / 2 + 0.5, 0.0, 1.0);
+      g.weight[i] = static_cast<float>(inside * 4 / ((1 + r2) * (1 + r2)));
     }
   });
-  return t;
+  return g;
 }
 
-/// Weighted sums of one filter: red, green, blue, weight.
-using Sums = std::array<float, 4>;
+struct Colours {
+  Plane r, g, b;
+};
 
-void gather(const Texels& t, std::size_t first, std::size_t count, const Vec3f& w, float scale, Sums& sums) {
-  float r = 0;
-  float g = 0;
-  float b = 0;
-  float total = 0;
-  for (std::size_t i = first; i < first + count; ++i) {
+Colours colours_of(const Image& image) {
+  const int size = image.width;
+  Colours colours{plane_of(size), plane_of(size), plane_of(size)};
+  parallel_for(size, [&](int row) {
+    for (int column = 0; column < size; ++column) {
+      const std::size_t i = texel_index(size, column, row);
+      colours.r[i] = image.data[3 * i];
+      colours.g[i] = image.data[3 * i + 1];
+      colours.b[i] = image.data[3 * i + 2];
+    }
+  });
+  return colours;
+}
+
+/// Weighted sums of one filter.
+struct Sums {
+  Lanes r = Lanes::Zero();
+  Lanes g = Lanes::Zero();
+  Lanes b = Lanes::Zero();
+  Lanes weight = Lanes::Zero();
+};
+
+/// Adds the texels from `first` to `end`, and up to three more: the filter leaves out those beyond its reach.
+void gather(const Geometry& map, const Colours& colours, std::size_t first, std::size_t end, const Vec3f& w,
+            float scale, Sums& sums) {
+  const auto lanes = [](const Plane& plane, std::size_t i) {
+    return Eigen::Map<const Lanes>(plane.data() + i);
+  };
+  const Vec3f scaled = scale * w;
+  for (std::size_t i = first; i < end; i += kLanes) {
     // d^2 = 2 (1 - w . texel), so that 1 - d^2 / d0^2 = 1 - scale + scale (w . texel).
-    float q = 1 - scale + scale * (w.x() * t.x[i] + w.y() * t.y[i] + w.z() * t.z[i]);
-    q = q > 0 ? q : 0;
-    q *= q;
-    const float weight = q * q * t.weight[i];
-    r += weight * t.r[i];
-    g += weight * t.g[i];
-    b += weight * t.b[i];
-    total += weight;
+    Lanes q = (1 - scale) + scaled.x() * lanes(map.x, i) + scaled.y() * lanes(map.y, i) +
+              scaled.z() * lanes(map.z, i);
+    q = q.max(0.0F).square();
+    const Lanes weight = q * q * lanes(map.weight, i);
+    sums.r += weight * lanes(colours.r, i);
+    sums.g += weight * lanes(colours.g, i);
+    sums.b += weight * lanes(colours.b, i);
+    sums.weight += weight;
   }
-  sums[0] += r;
-  sums[1] += g;
-  sums[2] += b;
-  sums[3] += total;
 }
 
-/// Adds what lies within the cap of angular radius `reach` around `w` on one hemisphere. A circle on the
-/// sphere is a circle on the map: that projection is stereographic.
-void gather_cap(const Texels& t, bool back, const Vec3& w, double reach, float scale, Sums& sums) {
-  const double across = std::hypot(w.x(), w.y());
-  const double angle = std::atan2(across, back ? -w.z() : w.z());
-  const double near = std::tan((angle - reach) / 2);
-  if (near > 1) return;
-  const double far = std::tan(std::min((angle + reach) / 2, 0.49 * kPi));
-  const Vec2 azimuth = across > 0 ? Vec2(w.x() / across, w.y() / across) : Vec2(1, 0);
-  const Vec2 centre = (near + far) / 2 * azimuth;
-  const double radius = (far - near) / 2;
-  const auto column = [&](double p) { return (p + 1) / 2 * t.size; };
-  const int y0 = std::max(0, static_cast<int>(std::floor(t.size - column(centre.y() + radius) - 0.5)));
-  const int y1 =
-      std::min(t.size - 1, static_cast<int>(std::ceil(t.size - column(centre.y() - radius) - 0.5)));
+/// Adds what lies within the cap of angular radius `reach` around `w` on the front; for the back, mirror `w`.
+void gather_cap(const Geometry& map, const Colours& colours, const Vec3& w, double reach, float scale,
+                Sums& sums) {
+  if (w.z() < -std::sin(reach)) return;
+  // The projection is stereographic: a circle on the sphere is a circle on the map, unless the cap holds the
+  // point opposite, which is at infinity.
+  const double below = std::cos(reach) + w.z();
+  const bool bounded = below > 1e-3;
+  const Vec2 centre = bounded ? Vec2(w.head<2>() / below) : Vec2(0, 0);
+  const double radius = bounded ? std::sin(reach) / below : 2;
+  const int size = map.size;
+  const auto column = [&](double p) { return (p + 1) / 2 * size; };
+  const int y0 = static_cast<int>(std::clamp(size - column(centre.y() + radius) - 0.5, 0.0, size - 1.0));
+  const int y1 = static_cast<int>(std::clamp(size - column(centre.y() - radius) + 0.5, 0.0, size - 1.0));
   for (int y = y0; y <= y1; ++y) {
-    const double dy = 1 - 2 * (y + 0.5) / t.size - centre.y();
+    const double dy = 1 - 2 * (y + 0.5) / size - centre.y();
     const double half = std::sqrt(std::max(0.0, radius * radius - dy * dy));
-    const int x0 = std::max(0, static_cast<int>(std::floor(column(centre.x() - half) - 0.5)));
-    const int x1 = std::min(t.size - 1, static_cast<int>(std::ceil(column(centre.x() + half) - 0.5)));
-    if (x1 < x0) continue;
-    gather(t, static_cast<std::size_t>(y) * static_cast<std::size_t>(t.size) + static_cast<std::size_t>(x0),
-           static_cast<std::size_t>(x1 - x0 + 1), w.cast<float>(), scale, sums);
+    const int x0 = static_cast<int>(std::clamp(column(centre.x() - half) - 0.5, 0.0, size - 1.0));
+    const int x1 = static_cast<int>(std::clamp(column(centre.x() + half) + 0.5, 0.0, size - 1.0));
+    gather(map, colours, texel_index(size, x0, y), texel_index(size, x1, y) + 1, w.cast<float>(), scale,
+           sums);
   }
 }
 
@@ -122,18 +150,20 @@ SphereMap blurred(const SphereMap& map, double variance, int size) {
     if (size == map.size()) return map;
     return make_sphere_map(size, [&](const Vec3& w) { return sample(map, w); });
   }
-  const Texels front = texels_of(map.front, false);
-  const Texels back = texels_of(map.back, true);
+  const Geometry geometry = geometry_of(map.size());
+  const Colours front = colours_of(map.front);
+  const Colours back = colours_of(map.back);
   const double chord2 = std::min(kSupport * variance, 4.0);
   const double reach = 2 * std::asin(std::sqrt(chord2) / 2);
   const auto scale = static_cast<float>(2 / (kSupport * variance));
   return make_sphere_map(size, [&](const Vec3& w) -> Vec3 {
-    Sums sums{};
-    gather_cap(front, false, w, reach, scale, sums);
-    gather_cap(back, true, w, reach, scale, sums);
+    Sums sums;
+    gather_cap(geometry, front, w, reach, scale, sums);
+    gather_cap(geometry, back, {w.x(), w.y(), -w.z()}, reach, scale, sums);
+    const float total = sums.weight.sum();
     // A filter narrower than a texel can miss all centres: then there is nothing to blur.
-    if (!(sums[3] > 0)) return sample(map, w);
-    return Vec3(sums[0], sums[1], sums[2]) / sums[3];
+    if (!(total > 0)) return sample(map, w);
+    return Vec3(sums.r.sum(), sums.g.sum(), sums.b.sum()) / total;
   });
 }
 

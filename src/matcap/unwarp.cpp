@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "sateen/matcap/unwarp.h"
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -13,7 +14,8 @@
 namespace sateen {
 namespace {
 
-constexpr int kCorrections = 12;
+constexpr int kCorrections = 12;           // at most
+constexpr float kSmallError = 0.1F / 255;  // of the base colour: once no texel moves further, corrections end
 
 /// The picture with the sphere's rim continued outwards, so that lookups near the rim never see what is
 /// behind it.
@@ -74,7 +76,7 @@ Vec3 sample_sharp(const Image& image, double x, double y) {
 
 /// Where one pixel reads: a square of four texels of one hemisphere.
 struct Lookup {
-  std::uint32_t texel;  ///< index of the left upper one's first channel; those of the back follow the front's
+  std::uint32_t texel;  ///< index of the left upper one; those of the back follow the front's
   std::uint32_t pixel;  ///< index of the pixel's first channel
   float right, down;    ///< weights of the right and of the lower texels
 
@@ -93,7 +95,7 @@ std::vector<Lookup> lookups(const Image& component, const Disc& disc, const Disc
     first[static_cast<std::size_t>(y) + 1] = first[static_cast<std::size_t>(y)] + count;
   }
   std::vector<Lookup> all(first.back());
-  const auto hemisphere = static_cast<std::uint32_t>(3 * size * size);
+  const auto hemisphere = static_cast<std::uint32_t>(size * size);
   parallel_for(component.height, [&](int y) {
     std::size_t next = first[static_cast<std::size_t>(y)];
     for (int x = 0; x < component.width; ++x) {
@@ -104,7 +106,7 @@ std::vector<Lookup> lookups(const Image& component, const Disc& disc, const Disc
       const double cy = std::clamp((1 - t.y()) / 2 * size - 0.5, 0.0, size - 1.0);
       const int x0 = std::min(static_cast<int>(cx), size - 2);
       const int y0 = std::min(static_cast<int>(cy), size - 2);
-      all[next++] = {static_cast<std::uint32_t>(3 * (y0 * size + x0)) + (w.z() < 0 ? hemisphere : 0),
+      all[next++] = {static_cast<std::uint32_t>(y0 * size + x0) + (w.z() < 0 ? hemisphere : 0),
                      static_cast<std::uint32_t>(component.index(x, y)), static_cast<float>(cx - x0),
                      static_cast<float>(cy - y0)};
     }
@@ -116,44 +118,44 @@ std::vector<Lookup> lookups(const Image& component, const Disc& disc, const Disc
 /// errors of the pixels that read it. Where texels are denser than pixels the errors vanish; elsewhere it is
 /// the least squares.
 void correct(SphereMap& map, const Image& component, const std::vector<Lookup>& all) {
+  using Texel = Eigen::Array4f;  // the fourth channel is idle: four are added at once
   const auto size = static_cast<std::size_t>(map.size());
-  const std::array<std::size_t, 4> corner{0, 3, 3 * size, 3 * size + 3};
-  std::vector<float> texels = map.front.data;
-  texels.insert(texels.end(), map.back.data.begin(), map.back.data.end());
-  std::vector<float> received(texels.size() / 3);
+  const std::array<std::size_t, 4> corner{0, 1, size, size + 1};
+  const std::array<Image*, 2> halves{&map.front, &map.back};
+  std::vector<Texel> texels(2 * size * size);
+  for (std::size_t i = 0; i < texels.size(); ++i) {
+    const float* p = halves[i / (size * size)]->data.data() + 3 * (i % (size * size));
+    texels[i] = {p[0], p[1], p[2], 0};
+  }
+  std::vector<float> step(texels.size(), 0.0F);
   for (const Lookup& l : all) {
     const auto weights = l.weights();
-    for (std::size_t i = 0; i < 4; ++i) received[(l.texel + corner[i]) / 3] += weights[i];
+    for (std::size_t i = 0; i < 4; ++i) step[l.texel + corner[i]] += weights[i];
   }
-  struct Correction {
-    std::size_t texel;  // index of its first channel
-    float factor;
-  };
-  std::vector<Correction> steps;  // of texels that some pixel reads
-  for (std::size_t i = 0; i < received.size(); ++i) {
-    if (received[i] > 1e-4F) steps.push_back({3 * i, 1 / std::max(received[i], 0.25F)});
-  }
-  std::vector<float> change(texels.size());
+  for (float& s : step) s = s > 1e-4F ? 1 / std::max(s, 0.25F) : 0;
+  std::vector<Texel> change(texels.size(), Texel::Zero());
   for (int round = 0; round < kCorrections; ++round) {
+    Texel largest = Texel::Zero();
     for (const Lookup& l : all) {
       const auto weights = l.weights();
-      for (std::size_t c = 0; c < 3; ++c) {
-        const std::size_t at = l.texel + c;
-        float error = component.data[l.pixel + c];
-        for (std::size_t i = 0; i < 4; ++i) error -= weights[i] * texels[at + corner[i]];
-        for (std::size_t i = 0; i < 4; ++i) change[at + corner[i]] += weights[i] * error;
-      }
+      const float* p = component.data.data() + l.pixel;
+      Texel error(p[0], p[1], p[2], 0);
+      for (std::size_t i = 0; i < 4; ++i) error -= weights[i] * texels[l.texel + corner[i]];
+      for (std::size_t i = 0; i < 4; ++i) change[l.texel + corner[i]] += weights[i] * error;
     }
-    for (const Correction& step : steps) {
-      for (std::size_t c = step.texel; c < step.texel + 3; ++c) {
-        texels[c] += step.factor * change[c];
-        change[c] = 0;
-      }
+    for (std::size_t i = 0; i < texels.size(); ++i) {
+      if (step[i] == 0) continue;
+      const Texel move = step[i] * change[i];
+      texels[i] += move;
+      largest = largest.max(move.abs());
+      change[i].setZero();
     }
+    if (largest.maxCoeff() < kSmallError) break;
   }
-  const auto back = texels.begin() + static_cast<std::ptrdiff_t>(map.front.data.size());
-  map.front.data.assign(texels.begin(), back);
-  map.back.data.assign(back, texels.end());
+  for (std::size_t i = 0; i < texels.size(); ++i) {
+    float* p = halves[i / (size * size)]->data.data() + 3 * (i % (size * size));
+    for (Eigen::Index c = 0; c < 3; ++c) p[c] = texels[i][c];
+  }
 }
 
 }  // namespace
