@@ -96,10 +96,8 @@ DecomposedAppearance::DecomposedAppearance(EditedMatcap matcap, ModulationMaps m
   const int low_size = matcap_.matcap[Part::low].map.levels.front().size();
   const int high_size = matcap_.matcap[Part::high].map.levels.front().size();
   if (low != high || low_size != high_size) {
-    throw Error(fmt::format(
-        "the mixed MatCaps have maps of different sizes, {} and {} texels; decompose them with the "
-        "same map size",
-        low_size, high_size));
+    throw Error(fmt::format("the maps of low and high part have different sizes, {} and {} texels", low_size,
+                            high_size));
   }
 }
 

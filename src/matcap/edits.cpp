@@ -88,6 +88,7 @@ class Replay {
   }
 
   EditedMatcap finish() {
+    give_one_size();
     for (const Part part : kParts) finish(part);
     return std::move(state_);
   }
@@ -99,6 +100,16 @@ class Replay {
     const Vec3 seen = warp(normal_on_disc(at), slope_of_variance(variance_[index(part)]));
     const Vec3 up = Eigen::AngleAxisd(turn, seen) * Vec3::UnitY();
     return {state_.light.transpose() * seen, state_.light.transpose() * up};
+  }
+
+  /// Of mixed MatCaps the smaller map gets the larger one's size: one texture holds both.
+  void give_one_size() {
+    int size = 0;
+    for (const MatcapPart& part : state_.matcap.parts) size = std::max(size, part.map.levels.front().size());
+    for (MatcapPart& part : state_.matcap.parts) {
+      const SphereMap& map = part.map.levels.front();
+      if (map.size() != size) part.map = prefilter(blurred(map, 0, size));
+    }
   }
 
   void finish(Part which) {

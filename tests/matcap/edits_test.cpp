@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "sateen/matcap/edits.h"
 
+#include <cmath>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -137,6 +139,29 @@ TEST(Edits, ColorIntensityAndSilhouetteActOnTheirPart) {
   const Vec3 at60 = test::direction_at(radians(60), 1);
   EXPECT_TRUE(
       evaluate_part(rim, Part::low, at60).isApprox(expected * evaluate_part(plain, Part::low, at60), 1e-9));
+}
+
+TEST(Edits, MixedMapsOfDifferentSizesGetTheLargerOnesSizeAndKeepTheirLight) {
+  const test::TemporaryFolder folder;
+  const MatcapDecomposition jade =
+      decompose(test::example_matcap("jade", 64), inscribed_disc(64, 64), {}, "jade");
+  write_matcap(folder / "jade.ktx2", jade);
+  const EditedMatcap mixed =
+      edited(R"([{"edit": "mix", "part": "high", "from": "jade.ktx2"}])", folder.path());
+  const std::size_t levels = lead()[Part::low].map.levels.size();
+  for (const Part part : kParts) {
+    ASSERT_EQ(mixed.matcap[part].map.levels.size(), levels);
+    EXPECT_EQ(mixed.matcap[part].map.levels.front().size(), 96);
+  }
+  double difference = 0;
+  double largest = 0;
+  for (double angle = 0; angle < 6; angle += 0.3) {
+    const Vec3 n = normal_on_disc(0.6 * Vec2(std::cos(angle), std::sin(angle)));
+    const Vec3 expected = evaluate_part(unedited(jade), Part::high, n);
+    difference = std::max(difference, (evaluate_part(mixed, Part::high, n) - expected).cwiseAbs().maxCoeff());
+    largest = std::max(largest, expected.maxCoeff());
+  }
+  EXPECT_LT(difference, 0.05 * largest);
 }
 
 TEST(Edits, MixTakesAPartFromAnotherMatCapAndBitmapsShine) {
