@@ -75,7 +75,7 @@ Image strip_of(MatcapDecomposition matcap) {
   matcap.width = matcap.height = kTile;
   matcap.disc = inscribed_disc(kTile, kTile);
   const Disc disc = matcap.disc;
-  matcap.rim = {};  // of the size it had
+  matcap.kept.clear();  // of the size it had
   EditedMatcap edited = unedited(std::move(matcap));
   std::vector<Image> tiles{bake(edited)};
   for (const Part part : kParts) {

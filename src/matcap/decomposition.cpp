@@ -3,8 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "sateen/core/parallel.h"
+#include "sateen/matcap/bake.h"
+#include "sateen/matcap/rim.h"
 #include "sateen/matcap/sphere_blur.h"
 #include "sateen/matcap/unwarp.h"
 #include "sateen/matcap/warp.h"
@@ -87,13 +90,16 @@ MatcapDecomposition decompose(const Separation& components, const Disc& disc, co
   result.width = components.low.width;
   result.height = components.low.height;
   result.disc = disc;
-  result.rim = rim_of(sum_of(components), disc, result.space);
+  const Image picture = sum_of(components);
+  const double rim = rim_width(picture, disc);
   parallel_for(2, [&](int i) {
     result.parts[static_cast<std::size_t>(i)] =
         part_of(i == 0 ? components.low : components.high, disc, options.regions[static_cast<std::size_t>(i)],
-                i == 0 ? kLambertian : kSatin, map_size, result.rim.width, name);
+                i == 0 ? kLambertian : kSatin, map_size, rim, name);
   });
-  return result;
+  EditedMatcap shown = unedited(std::move(result));
+  shown.matcap.kept = pixels_to_keep(from_add_up_space(picture, options.space), bake(shown), disc);
+  return std::move(shown.matcap);
 }
 
 MatcapDecomposition decompose(const Image& picture, const Disc& disc, const DecomposeOptions& options,
@@ -105,7 +111,9 @@ MatcapDecomposition decompose(const Image& picture, const Disc& disc, const Deco
     result.width = picture.width;
     result.height = picture.height;
     result.disc = disc;
-    result.rim = rim_pixels(with_channels(picture, 3), disc, result.rim.width / shrink);
+    // Of all that shrinking loses only the edge, which would show where the sphere was cut out, comes back.
+    const double rim = rim_width(to_add_up_space(picture, options.space), disc) / shrink;
+    result.kept = pixels_of_rim(with_channels(picture, 3), disc, rim);
     return result;
   }
   return decompose(separate(to_add_up_space(picture, options.space), disc, options.outliers, name), disc,

@@ -8,7 +8,7 @@
 
 #include "sateen/core/image.h"
 #include "sateen/matcap/filter_estimate.h"
-#include "sateen/matcap/rim.h"
+#include "sateen/matcap/kept_pixels.h"
 #include "sateen/matcap/separation.h"
 #include "sateen/matcap/sphere_disc.h"
 #include "sateen/matcap/sphere_map.h"
@@ -42,8 +42,8 @@ struct MatcapDecomposition {
   AddUpSpace space = AddUpSpace::display;
   int width = 0;  ///< of the input picture
   int height = 0;
-  Disc disc;  ///< the sphere in it
-  Rim rim;    ///< pixels the maps leave out
+  Disc disc;                    ///< the sphere in it
+  std::vector<KeptPixel> kept;  ///< pixels of it that the maps cannot give back
   std::map<std::string, std::string> provenance;
 
   MatcapPart& operator[](Part part) { return parts[static_cast<std::size_t>(part)]; }

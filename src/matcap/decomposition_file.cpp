@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "sateen/matcap/decomposition_file.h"
 
-#include <charconv>
 #include <cmath>
 #include <cstring>
 
@@ -78,7 +77,6 @@ MatcapDecomposition from_json(const fs::path& path, const json& value, std::size
   const json& disc = value.at("disc");
   matcap.disc = {disc.at("x"), disc.at("y"), disc.at("radius")};
   check_disc(matcap.disc, matcap.width, matcap.height, path.string());
-  matcap.rim.width = value.contains("rim") ? finite(path, value, "rim", 0, matcap.disc.radius) : 0;
   matcap[Part::low] = part_from_json(path, value.at("low"), levels);
   matcap[Part::high] = part_from_json(path, value.at("high"), levels);
   matcap.provenance = value.value("provenance", matcap.provenance);
@@ -90,44 +88,10 @@ json parameters(const MatcapDecomposition& matcap) {
           {"width", matcap.width},
           {"height", matcap.height},
           {"disc", {{"x", matcap.disc.x}, {"y", matcap.disc.y}, {"radius", matcap.disc.radius}}},
-          {"rim", matcap.rim.width},
           {"map_size", matcap[Part::low].map.levels.front().size()},
           {"low", to_json(matcap[Part::low])},
           {"high", to_json(matcap[Part::high])},
           {"provenance", matcap.provenance}};
-}
-
-/// Half floats as four hexadecimal digits each: metadata are text.
-std::string rim_text(const Rim& rim) {
-  std::string text;
-  for (const Vec3f& colour : rim.colours) {
-    for (const float v : colour) text += fmt::format("{:04x}", Eigen::half(v).x);
-  }
-  return text;
-}
-
-void read_rim(const fs::path& path, const std::string& text, MatcapDecomposition& matcap) {
-  constexpr std::size_t kDigits = 4;
-  std::size_t expected = 0;
-  if (text.empty() && matcap.rim.width == 0) return;
-  for (int y = 0; y < matcap.height; ++y) {
-    for (int x = 0; x < matcap.width; ++x)
-      expected += on_rim(matcap.disc, matcap.rim.width, x, y) ? 3 * kDigits : 0;
-  }
-  if (text.size() != expected) {
-    fail(path, fmt::format("'sateen.rim' must have {} digits, it has {}", expected, text.size()));
-  }
-  std::vector<float> values;
-  for (std::size_t i = 0; i < text.size(); i += kDigits) {
-    std::uint16_t bits = 0;
-    const auto end = text.data() + i + kDigits;
-    const auto [next, error] = std::from_chars(text.data() + i, end, bits, 16);
-    values.push_back(static_cast<float>(Eigen::half(Eigen::half_impl::raw_uint16_to_half(bits))));
-    if (error != std::errc() || next != end || !std::isfinite(values.back()))
-      fail(path, "'sateen.rim' has something that is no half float");
-  }
-  for (std::size_t i = 0; i + 2 < values.size(); i += 3)
-    matcap.rim.colours.emplace_back(values[i], values[i + 1], values[i + 2]);
 }
 
 }  // namespace
@@ -146,7 +110,7 @@ void write_matcap(const fs::path& path, const MatcapDecomposition& matcap) {
                       {"sateen.kind", kMatcapKind},
                       {"sateen.version", std::to_string(kMatcapFileVersion)},
                       {"sateen.matcap", matcap_json(matcap)}};
-  if (!matcap.rim.empty()) texture.metadata["sateen.rim"] = rim_text(matcap.rim);
+  if (!matcap.kept.empty()) texture.metadata["sateen.kept"] = text_of_pixels(matcap.kept);
   write_ktx2(path, texture, kZstdLevel);
 }
 
@@ -173,7 +137,12 @@ MatcapDecomposition read_matcap(const fs::path& path) {
   } catch (const json::exception& error) {
     fail(path, std::string("the parameters cannot be read: ") + error.what());
   }
-  read_rim(path, entry("sateen.rim"), matcap);
+  try {
+    const auto pixels = static_cast<std::size_t>(matcap.width) * static_cast<std::size_t>(matcap.height);
+    matcap.kept = pixels_of_text(entry("sateen.kept"), pixels);
+  } catch (const Error& error) {
+    fail(path, fmt::format("'sateen.kept': {}", error.what()));
+  }
   set_half_levels(matcap, static_cast<int>(texture.width), texture.levels);
   for (const MatcapPart& part : matcap.parts) {
     for (const SphereMap& level : part.map.levels) {

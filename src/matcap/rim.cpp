@@ -18,8 +18,8 @@ bool on_rim(const Disc& disc, double width, int x, int y) {
   return on_disc(disc, x, y) && !on_disc({disc.x, disc.y, disc.radius - width}, x, y);
 }
 
-Rim rim_of(const Image& picture, const Disc& disc, AddUpSpace space) {
-  if (disc.radius < kSmallest) return {};
+double rim_width(const Image& picture, const Disc& disc) {
+  if (disc.radius < kSmallest) return 0;
   double difference = 0;
   double sum = 0;
   for (int y = 0; y < picture.height; ++y) {
@@ -43,28 +43,7 @@ Rim rim_of(const Image& picture, const Disc& disc, AddUpSpace space) {
       sum += inside.cwiseAbs().sum();
     }
   }
-  if (difference <= kSmooth * sum) return {};
-  return rim_pixels(from_add_up_space(picture, space), disc, kWidth);
-}
-
-Rim rim_pixels(const Image& picture, const Disc& disc, double width) {
-  Rim rim{width, {}};
-  if (!(width > 0)) return rim;
-  for (int y = 0; y < picture.height; ++y) {
-    for (int x = 0; x < picture.width; ++x) {
-      if (on_rim(disc, width, x, y)) rim.colours.push_back(picture.rgb(x, y));
-    }
-  }
-  return rim;
-}
-
-void put_back(const Rim& rim, const Disc& disc, Image& picture) {
-  std::size_t next = 0;
-  for (int y = 0; y < picture.height; ++y) {
-    for (int x = 0; x < picture.width && next < rim.colours.size(); ++x) {
-      if (on_rim(disc, rim.width, x, y)) picture.set_rgb(x, y, rim.colours[next++]);
-    }
-  }
+  return difference > kSmooth * sum ? kWidth : 0;
 }
 
 }  // namespace sateen
