@@ -6,6 +6,9 @@
 #include <cmath>
 #include <numeric>
 
+#include <tbb/enumerable_thread_specific.h>
+
+#include "sateen/capture/choose_camera.h"
 #include "sateen/capture/median.h"
 
 namespace sateen {
@@ -41,6 +44,19 @@ void leave_out_blank(std::vector<GreyPicture>& pictures) {
   std::erase_if(pictures, [&](const GreyPicture& picture) { return contrast(picture) < 0.35 * typical; });
 }
 
+/// Of the outline that a wide search finds, then of that around the sphere which fits it. Sets the camera's.
+FocalEstimate find_focal(std::span<const GreyPicture> greys, const Scouting& scouting, Camera& camera) {
+  const Camera assumed = camera;
+  const auto estimate = [&](const OutlineFit& fit, double reach) {
+    const FocalEstimate found = estimate_focal(mean_outline(greys, scouting, camera, fit, reach), assumed);
+    camera.focal = Vec2::Constant(found.focal);
+    return found;
+  };
+  estimate(rough_outline(greys, scouting), outline_search(scouting));
+  constexpr double kReach = 4;
+  return estimate(fit_outlines(greys, scouting, camera), kReach);
+}
+
 }  // namespace
 
 FirstLook first_look(FrameSource& source, const Camera& camera, const Progress& progress) {
@@ -63,6 +79,7 @@ FirstLook first_look(FrameSource& source, const Camera& camera, const Progress& 
   std::erase_if(greys, [](const GreyPicture& grey) { return grey.codes.empty(); });
   leave_out_blank(greys);
   look.scouting = find_sphere(greys);
+  if (camera.focal_source == kAssumedFocal) look.focal = find_focal(greys, look.scouting, look.camera);
   look.outline = fit_outlines(greys, look.scouting, look.camera);
   for (const Vec2& c : look.outline.centres)
     look.centre += c / static_cast<double>(look.outline.centres.size());
@@ -112,9 +129,11 @@ std::vector<FrameNotes> measure_frames(FrameSource& source, const FirstLook& loo
   std::vector<int> indices(notes.size());
   std::iota(indices.begin(), indices.end(), 0);
   std::atomic<int> done = 0;
+  tbb::enumerable_thread_specific<GreyPicture> greys;
   source.visit(indices, [&](int index, const Frame& frame) {
     FrameNotes& note = notes[static_cast<std::size_t>(index)];
-    const GreyPicture grey = grey_picture(frame, look.factor, region);
+    GreyPicture& grey = greys.local();
+    grey_picture(frame, look.factor, region, grey);
     note.still = sample_still_points(look.still, frame);
     const double gain = code_gain(look, note.still);
     note.centre = look.centre;
