@@ -49,7 +49,7 @@ std::vector<double> distances(std::span<const Vec2> outline, const Camera& camer
     for (std::size_t i = 0; i < rays.size(); ++i) {
       // How many pixels a radian away from the axis is here.
       constexpr double kSmall = 1e-4;
-      const Vec3 outward = (rays[i] - axis * axis.dot(rays[i])).normalized();
+      const Vec3 outward = (rays[i] * axis.dot(rays[i]) - axis).normalized();
       const double scale = (camera.project(rays[i] + kSmall * outward) - outline[i]).norm() / kSmall;
       scales.push_back(scale / tangent);
       result[i] = (1 - rays[i].dot(w)) * scales.back();

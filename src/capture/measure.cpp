@@ -52,7 +52,7 @@ FocalEstimate find_focal(std::span<const GreyPicture> greys, const Scouting& sco
     camera.focal = Vec2::Constant(found.focal);
     return found;
   };
-  estimate(rough_outline(greys, scouting), outline_search(scouting));
+  estimate(rough_outline(greys, scouting, camera, outline_search(scouting)), outline_search(scouting));
   constexpr double kReach = 4;
   return estimate(fit_outlines(greys, scouting, camera), kReach);
 }

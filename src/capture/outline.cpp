@@ -192,8 +192,8 @@ std::vector<EdgePoint> find_edges(const GreyPicture& frame, double gain, const P
 /// outline. One instance serves a capture; beyond the reach of every frame's sphere nothing changes.
 class Background {
  public:
-  Background(std::span<const GreyPicture> frames, const Scouting& scouting)
-      : frames_(frames), scouting_(scouting) {
+  Background(std::span<const GreyPicture> frames, const Scouting& scouting, const Camera& camera)
+      : frames_(frames), scouting_(scouting), camera_(camera) {
     plate_.width = frames[0].width;
     plate_.height = frames[0].height;
     plate_.noise = scouting.noise;
@@ -201,31 +201,45 @@ class Background {
     clear_.assign(plate_.light.size(), 0);
   }
 
-  /// With the spheres at `centres`, widened by `margin` pixels.
+  /// With the spheres at `centres`, widened by `margin` pixels. An outline is a cone of rays about the
+  /// direction of the sphere: that holds for the ellipses of a near camera as well.
   const Plate& around(const std::vector<Vec2>& centres, double radius, double margin) {
-    const Vec2 middle = mean_of(centres);
+    const double focal = camera_.focal.mean();
+    std::vector<Vec3> spheres;
+    Vec3 middle(0, 0, 0);
+    for (const Vec2& c : centres) {
+      spheres.push_back(camera_.ray(c));
+      middle += spheres.back();
+    }
+    middle.normalize();
     double spread = 0;
-    for (const Vec2& c : centres) spread = std::max(spread, (c - middle).norm());
-    const double hidden = std::max(0.0, radius + margin - spread);  // nearer than this no frame shows it
-    const double ring = radius * 1.1 + 12;
-    const double everywhere = radius + margin + spread;
-    const double own = (radius + margin) * (radius + margin);
+    for (const Vec3& sphere : spheres)
+      spread = std::max(spread, std::acos(std::min(1.0, sphere.dot(middle))));
+    const double cone = std::atan(radius / focal) + margin / focal;
+    const double own = std::cos(cone);
+    const double ring = std::cos(std::atan((radius * 1.1 + 12) / focal));
+    const double clear_of_all = std::cos(cone + spread);
+    const double hidden_in_all = std::cos(std::max(0.0, cone - spread));
+    const Vec2 seen_middle = camera_.project(middle);
+    const double farthest = 2 * radius + 24;  // the longest ellipse there may be
     parallel_for(plate_.height, [&](int y) {
       std::vector<float> values;
       for (int x = 0; x < plate_.width; ++x) {
         const Vec2 p(x + 0.5, y + 0.5);
-        const double distance = (p - middle).norm();
-        if (distance > ring) continue;
+        if ((p - seen_middle).squaredNorm() > farthest * farthest) continue;
+        const Vec3 ray = camera_.ray(p);
+        const double cosine = ray.dot(middle);
+        if (cosine < ring) continue;
         const auto i = static_cast<std::size_t>(y) * static_cast<std::size_t>(plate_.width) +
                        static_cast<std::size_t>(x);
-        const bool clear = distance >= everywhere;
+        const bool clear = cosine <= clear_of_all;
         if (clear && clear_[i] != 0) continue;
         clear_[i] = clear ? 1 : 0;
         plate_.light[i] = -1;
-        if (distance < hidden) continue;
+        if (cosine > hidden_in_all) continue;
         values.clear();
         for (std::size_t f = 0; f < frames_.size(); ++f) {
-          if (!clear && (p - centres[f]).squaredNorm() < own) continue;
+          if (!clear && ray.dot(spheres[f]) > own) continue;
           const double gain = static_cast<double>(scouting_.gain[f]);
           values.push_back(static_cast<float>(light_of(frames_[f].codes[i]) / (gain * gain)));
         }
@@ -239,14 +253,9 @@ class Background {
   }
 
  private:
-  static Vec2 mean_of(const std::vector<Vec2>& points) {
-    Vec2 mean(0, 0);
-    for (const Vec2& p : points) mean += p / static_cast<double>(points.size());
-    return mean;
-  }
-
   std::span<const GreyPicture> frames_;
   const Scouting& scouting_;
+  Camera camera_;
   Plate plate_;
   std::vector<std::uint8_t> clear_;  // 1: the median of all frames is known
 };
@@ -264,12 +273,13 @@ double outline_search(const Scouting& scouting) {
   return std::clamp(0.15 * scouting.radius, 8.0, 30.0);
 }
 
-OutlineFit rough_outline(std::span<const GreyPicture> frames, const Scouting& scouting) {
+OutlineFit rough_outline(std::span<const GreyPicture> frames, const Scouting& scouting, const Camera& camera,
+                         double margin) {
   OutlineFit fit;
   fit.radius = scouting.radius;
   fit.centres.assign(frames.size(), scouting.centre);
   fit.residuals.assign(frames.size(), 0);
-  fit.plate = Background(frames, scouting).around(fit.centres, fit.radius, kFirstMargin);
+  fit.plate = Background(frames, scouting, camera).around(fit.centres, fit.radius, margin);
   return fit;
 }
 
@@ -299,8 +309,8 @@ std::vector<Vec2> mean_outline(std::span<const GreyPicture> frames, const Scouti
 
 OutlineFit fit_outlines(std::span<const GreyPicture> frames, const Scouting& scouting, const Camera& camera) {
   const std::size_t n = frames.size();
-  OutlineFit fit = rough_outline(frames, scouting);
-  Background background(frames, scouting);
+  OutlineFit fit = rough_outline(frames, scouting, camera, kFirstMargin);
+  Background background(frames, scouting, camera);
   const double widest = outline_search(scouting);
   const std::vector<double> reaches{widest, std::max(6.0, widest / 2), 6, 4, 3, 3};
   for (std::size_t round = 0; round < reaches.size(); ++round) {
