@@ -10,6 +10,7 @@
 
 #include "sateen/capture/choose_camera.h"
 #include "sateen/capture/median.h"
+#include "sateen/core/error.h"
 
 namespace sateen {
 namespace {
@@ -44,17 +45,33 @@ void leave_out_blank(std::vector<GreyPicture>& pictures) {
   std::erase_if(pictures, [&](const GreyPicture& picture) { return contrast(picture) < 0.35 * typical; });
 }
 
-/// Of the outline that a wide search finds, then of that around the sphere which fits it. Sets the camera's.
+/// Tries a few focal lengths: under a wrong one the predicted ellipse finds other edges than the sphere's and
+/// fewer of its own. From the best of them on the outline tells. Sets the camera's.
 FocalEstimate find_focal(std::span<const GreyPicture> greys, const Scouting& scouting, Camera& camera) {
   const Camera assumed = camera;
-  const auto estimate = [&](const OutlineFit& fit, double reach) {
-    const FocalEstimate found = estimate_focal(mean_outline(greys, scouting, camera, fit, reach), assumed);
+  double best = 0;
+  for (const double times : {0.5, 0.7, 1.0, 1.5, 3.0}) {
+    Camera tried = assumed;
+    tried.focal *= times;
+    try {
+      const OutlineFit fit = fit_outlines(greys, scouting, tried);
+      constexpr double kNoise = 0.1;  // pixels: below it residuals tell nothing
+      const double score = fit.support / (kNoise + median(fit.residuals));
+      if (score <= best) continue;
+      best = score;
+      camera = tried;
+    } catch (const Error&) {
+      continue;  // no outline that fits this one
+    }
+  }
+  FocalEstimate found;
+  for (int round = 0; round < 3; ++round) {
+    constexpr double kReach = 4;
+    const OutlineFit fit = fit_outlines(greys, scouting, camera);
+    found = estimate_focal(mean_outline(greys, scouting, camera, fit, kReach), assumed);
     camera.focal = Vec2::Constant(found.focal);
-    return found;
-  };
-  estimate(rough_outline(greys, scouting, camera, outline_search(scouting)), outline_search(scouting));
-  constexpr double kReach = 4;
-  return estimate(fit_outlines(greys, scouting, camera), kReach);
+  }
+  return found;
 }
 
 }  // namespace

@@ -260,27 +260,11 @@ class Background {
   std::vector<std::uint8_t> clear_;  // 1: the median of all frames is known
 };
 
-constexpr double kFirstMargin = 3;
-
 }  // namespace
 
 OutlineOffset measure_outline(const GreyPicture& frame, double gain, const Plate& plate, const Camera& camera,
                               const SphereView& sphere, double reach, bool fixed_radius) {
   return fit_offset(find_edges(frame, gain, plate, camera, sphere, reach), fixed_radius);
-}
-
-double outline_search(const Scouting& scouting) {
-  return std::clamp(0.15 * scouting.radius, 8.0, 30.0);
-}
-
-OutlineFit rough_outline(std::span<const GreyPicture> frames, const Scouting& scouting, const Camera& camera,
-                         double margin) {
-  OutlineFit fit;
-  fit.radius = scouting.radius;
-  fit.centres.assign(frames.size(), scouting.centre);
-  fit.residuals.assign(frames.size(), 0);
-  fit.plate = Background(frames, scouting, camera).around(fit.centres, fit.radius, margin);
-  return fit;
 }
 
 std::vector<Vec2> mean_outline(std::span<const GreyPicture> frames, const Scouting& scouting,
@@ -309,12 +293,16 @@ std::vector<Vec2> mean_outline(std::span<const GreyPicture> frames, const Scouti
 
 OutlineFit fit_outlines(std::span<const GreyPicture> frames, const Scouting& scouting, const Camera& camera) {
   const std::size_t n = frames.size();
-  OutlineFit fit = rough_outline(frames, scouting, camera, kFirstMargin);
+  OutlineFit fit;
+  fit.radius = scouting.radius;
+  fit.centres.assign(n, scouting.centre);
+  fit.residuals.assign(n, 0);
   Background background(frames, scouting, camera);
-  const double widest = outline_search(scouting);
+  // The swept circle is larger than the sphere by the wobble, which is unknown yet: the first search is wide.
+  const double widest = std::clamp(0.15 * scouting.radius, 8.0, 30.0);
   const std::vector<double> reaches{widest, std::max(6.0, widest / 2), 6, 4, 3, 3};
   for (std::size_t round = 0; round < reaches.size(); ++round) {
-    fit.plate = background.around(fit.centres, fit.radius, round == 0 ? kFirstMargin : 2);
+    fit.plate = background.around(fit.centres, fit.radius, round == 0 ? 3 : 2);
     std::vector<OutlineOffset> offsets(n);
     parallel_for(static_cast<int>(n), [&](int f) {
       const auto i = static_cast<std::size_t>(f);

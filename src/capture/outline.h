@@ -45,14 +45,6 @@ struct OutlineFit {
 std::vector<Vec2> mean_outline(std::span<const GreyPicture> frames, const Scouting& scouting,
                                const Camera& camera, const OutlineFit& fit, double reach);
 
-/// How far the outline may be from the circle that Scouting found, pixels: it swept over the wobble as well.
-double outline_search(const Scouting& scouting);
-
-/// The start of every fit: the circle that Scouting found, in all frames. The background counts as seen
-/// `margin` pixels outside of it.
-OutlineFit rough_outline(std::span<const GreyPicture> frames, const Scouting& scouting, const Camera& camera,
-                         double margin);
-
 /// The sphere of each scout frame, sub-pixel, from the coarse circle; in pixels of the grey pictures, whose
 /// camera is `camera`. Throws Error when no outline stands out against the background.
 OutlineFit fit_outlines(std::span<const GreyPicture> frames, const Scouting& scouting, const Camera& camera);
