@@ -22,7 +22,8 @@ std::string lens_advice(const CaptureResult& result) {
                     : "the sphere's outline does not tell the focal length (it is too near the picture's "
                       "middle, or too small), so what cameras commonly have was assumed";
   return fmt::format(
-      "the lens is unknown: {}: {:.0f} pixels, a horizontal field of view of {:.0f} degrees; it may be "
+      "the lens is unknown: {}, {:.0f} pixels. That is a horizontal field of view of {:.0f} degrees; it may "
+      "be "
       "{:.0f} to {:.0f} degrees. At either end normals would be off by up to {:.1f} and tangents by up to "
       "{:.1f} degrees half-way to the rim. Give --focal-mm with --sensor-mm, --fov, or a calibration "
       "(sateen capture calibrate)",
