@@ -8,24 +8,36 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "sateen/capture/choose_camera.h"
 #include "sateen/capture/used_frames.h"
 
 namespace sateen {
 namespace {
 
-/// What a wrong guess of the lens costs grows with how much of the view the sphere fills.
-std::string lens_advice(const SphereView& sphere) {
-  const double half = sphere.half_angle();
-  const double bend = std::abs(std::sin(std::atan(0.5 * std::tan(half))) / std::sin(half) - 0.5);
+std::string lens_advice(const CaptureResult& result) {
+  const FocalEstimate& lens = *result.focal;
+  const auto fov = [&](double focal) { return degrees(2 * std::atan(result.camera.width / 2.0 / focal)); };
+  const LensEffect effect = focal_effect(result);
+  const std::string source =
+      lens.informed ? "its focal length was estimated from the sphere's outline"
+                    : "the sphere's outline does not tell the focal length (it is too near the picture's "
+                      "middle, or too small), so what cameras commonly have was assumed";
   return fmt::format(
-      "the lens is unknown, so a horizontal field of view of {:.0f} degrees was assumed. If it is much "
-      "longer, normals are off by about {:.1f} and tangents by about {:.1f} degrees half-way to the rim. "
-      "Give --focal-mm with --sensor-mm, --fov, or a calibration (sateen capture calibrate)",
-      kAssumedFov, degrees(bend), degrees(half / 2));
+      "the lens is unknown: {}, {:.0f} pixels. That is a horizontal field of view of {:.0f} degrees; it may "
+      "be "
+      "{:.0f} to {:.0f} degrees. At either end normals would be off by up to {:.1f} and tangents by up to "
+      "{:.1f} degrees half-way to the rim. Give --focal-mm with --sensor-mm, --fov, or a calibration "
+      "(sateen capture calibrate)",
+      source, lens.focal, fov(lens.focal), fov(lens.high), fov(lens.low), effect.normals, effect.tangents);
 }
 
 }  // namespace
+
+LensEffect focal_effect(const CaptureResult& result) {
+  const double radius = result.sphere.radius_pixel(result.camera);
+  const LensEffect low = lens_effect(radius, result.focal->focal, result.focal->low);
+  const LensEffect high = lens_effect(radius, result.focal->focal, result.focal->high);
+  return {std::max(low.normals, high.normals), std::max(low.tangents, high.tangents)};
+}
 
 std::vector<std::string> dropped_advice(const std::vector<CaptureFrame>& frames) {
   constexpr std::size_t kNamed = 4;
@@ -53,7 +65,7 @@ std::vector<std::string> framing_advice(const CaptureResult& result, int texels)
                     "closer or use a longer lens",
                     fills, 2 * radius, texels));
   }
-  if (result.camera.focal_source == "assumed") advice.push_back(lens_advice(result.sphere));
+  if (result.focal) advice.push_back(lens_advice(result));
   const double towards =
       degrees(std::acos(std::clamp(-result.axis.dot(result.sphere.centre.normalized()), -1.0, 1.0)));
   if (towards > 5) {

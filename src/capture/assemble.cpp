@@ -112,68 +112,78 @@ void smooth_filling(Image& slice, const std::vector<std::size_t>& filled) {
   const auto on_disc = [&](int x, int y) {
     return x >= 0 && y >= 0 && x < size && y < size && disc_of_pixel(x, y, size).norm() < 1;
   };
-  std::vector<std::size_t> inside;
+  struct Texel {
+    float* rgb;
+    std::array<const float*, 4> around;
+    int count;
+  };
+  std::vector<Texel> inside;
   for (const std::size_t i : filled) {
-    if (on_disc(static_cast<int>(i) % size, static_cast<int>(i) / size)) inside.push_back(i);
+    const int x = static_cast<int>(i) % size;
+    const int y = static_cast<int>(i) / size;
+    if (!on_disc(x, y)) continue;
+    Texel texel{slice.pixel(x, y).data(), {}, 0};
+    for (const auto& [u, v] : {std::pair{-1, 0}, {1, 0}, {0, -1}, {0, 1}}) {
+      if (on_disc(x + u, y + v))
+        texel.around[static_cast<std::size_t>(texel.count++)] = slice.pixel(x + u, y + v).data();
+    }
+    if (texel.count > 0) inside.push_back(texel);
   }
   for (int round = 0; round < 60; ++round) {
     const float over = round < 56 ? 1.6f : 1.0f;
-    for (const std::size_t i : inside) {
-      const int x = static_cast<int>(i) % size;
-      const int y = static_cast<int>(i) / size;
-      Vec3f sum(0, 0, 0);
-      float count = 0;
-      for (const auto& [u, v] : {std::pair{-1, 0}, {1, 0}, {0, -1}, {0, 1}}) {
-        if (!on_disc(x + u, y + v)) continue;
-        sum += slice.rgb(x + u, y + v);
-        ++count;
+    for (const Texel& texel : inside) {
+      for (int c = 0; c < 3; ++c) {
+        float sum = 0;
+        for (int i = 0; i < texel.count; ++i) sum += texel.around[static_cast<std::size_t>(i)][c];
+        texel.rgb[c] += over * (sum / static_cast<float>(texel.count) - texel.rgb[c]);
       }
-      if (count == 0) continue;
-      const Vec3f before = slice.rgb(x, y);
-      slice.set_rgb(x, y, before + over * (sum / count - before));
+    }
+  }
+}
+
+/// Calls body(index, weight) for the up to eight neighbours of a texel; those across a corner weigh less.
+template <class Body>
+void for_neighbours(int size, std::size_t index, const Body& body) {
+  const int x = static_cast<int>(index) % size;
+  const int y = static_cast<int>(index) / size;
+  for (int v = std::max(0, y - 1); v <= std::min(size - 1, y + 1); ++v) {
+    for (int u = std::max(0, x - 1); u <= std::min(size - 1, x + 1); ++u) {
+      if (u != x || v != y) body(static_cast<std::size_t>(v * size + u), u != x && v != y ? 0.7f : 1.0f);
     }
   }
 }
 
 /// Grows known texels over unknown ones, ring by ring, as the mean of the known neighbours.
 void grow_known(Image& slice, std::vector<std::uint8_t> known) {
+  constexpr std::uint8_t kWaiting = 255;  // unknown, but next in turn
   const int size = slice.width;
-  std::vector<std::pair<std::size_t, Vec3f>> grown;
-  std::vector<std::size_t> unknown;
+  std::vector<std::size_t> ring;
+  const auto queue_unknown_around = [&](std::size_t i, std::vector<std::size_t>& queue) {
+    for_neighbours(size, i, [&](std::size_t j, float) {
+      if (known[j] != 0) return;
+      known[j] = kWaiting;
+      queue.push_back(j);
+    });
+  };
   for (std::size_t i = 0; i < known.size(); ++i) {
-    if (known[i] == 0) unknown.push_back(i);
+    if (known[i] != 0 && known[i] != kWaiting) queue_unknown_around(i, ring);
   }
-  while (!unknown.empty()) {
-    grown.clear();
-    std::vector<std::size_t> later;
-    for (const std::size_t i : unknown) {
-      const int x = static_cast<int>(i) % size;
-      const int y = static_cast<int>(i) / size;
+  std::vector<std::size_t> next;
+  while (!ring.empty()) {
+    next.clear();
+    for (const std::size_t i : ring) {
       Vec3f sum(0, 0, 0);
       float weight = 0;
-      for (int v = -1; v <= 1; ++v) {
-        for (int u = -1; u <= 1; ++u) {
-          const int nx = x + u;
-          const int ny = y + v;
-          if (nx < 0 || ny < 0 || nx >= size || ny >= size) continue;
-          if (known[static_cast<std::size_t>(ny * size + nx)] == 0) continue;
-          const float w = u != 0 && v != 0 ? 0.7f : 1.0f;
-          sum += w * slice.rgb(nx, ny);
-          weight += w;
-        }
-      }
-      if (weight > 0) {
-        grown.emplace_back(i, sum / weight);
-      } else {
-        later.push_back(i);
-      }
+      for_neighbours(size, i, [&](std::size_t j, float w) {
+        if (known[j] == 0 || known[j] == kWaiting) return;
+        sum += w * slice.rgb(static_cast<int>(j) % size, static_cast<int>(j) / size);
+        weight += w;
+      });
+      slice.set_rgb(static_cast<int>(i) % size, static_cast<int>(i) / size, sum / weight);
     }
-    if (grown.empty()) return;
-    for (const auto& [i, colour] : grown) {
-      slice.set_rgb(static_cast<int>(i) % size, static_cast<int>(i) / size, colour);
-      known[i] = 1;
-    }
-    unknown = std::move(later);
+    for (const std::size_t i : ring) known[i] = 1;
+    for (const std::size_t i : ring) queue_unknown_around(i, next);
+    ring.swap(next);
   }
 }
 
@@ -201,6 +211,13 @@ AssembledSlices assemble(const RectifiedStack& stack, const SurfaceMask& mask, d
   const auto texels = static_cast<std::size_t>(size) * static_cast<std::size_t>(size);
   const double period = 1.0 / symmetry;
   const AxisFrame axes(stack.axis);
+  std::vector<Vec2> poles;
+  std::vector<Vec2> turned;
+  for (const double angle : stack.angles) {
+    poles.push_back(TangentAngle::pole(first_angle, angle));
+    turned.push_back(direction_of(angle));
+  }
+  const bool masked = mask.size > 0;
   AssembledSlices result;
   result.slices.assign(static_cast<std::size_t>(count), Image(size, size, 3));
   result.seen.assign(texels * static_cast<std::size_t>(count), 0);
@@ -215,9 +232,10 @@ AssembledSlices assemble(const RectifiedStack& stack, const SurfaceMask& mask, d
       samples.clear();
       for (std::size_t f = 0; f < stack.frames.size(); ++f) {
         const RectifiedFrame& frame = stack.frames[f];
-        if (frame.weight[i] == 0 || mask.excludes(body_point(axes, point.normal, stack.angles[f]))) continue;
+        if (frame.weight[i] == 0) continue;
+        if (masked && mask.excludes(body_point(axes, point.normal, turned[f]))) continue;
         Sample sample;
-        sample.angle = wrap(tangent.at(first_angle, stack.angles[f]), period);
+        sample.angle = wrap(tangent.at(poles[f]), period);
         sample.weight = static_cast<float>(frame.weight[i]) / 255.0f;
         for (std::size_t c = 0; c < 3; ++c) sample.rgb[c] = static_cast<float>(frame.rgb[i * 3 + c]);
         samples.push_back(sample);

@@ -22,7 +22,7 @@ struct AssembledSlices {
 /// the disc), are folded into one period of 1 / symmetry of a turn and fitted by a local quadratic around
 /// each slice's angle (Savitzky-Golay on uneven points), as wide as the samples are sparse. Masked samples
 /// take no part: with symmetry > 1 the equivalent slices fill in for them. What is left unseen, the rim and
-/// the corners are grown from their neighbours. `first_angle` in radians as in TangentAngle::at.
+/// the corners are grown from their neighbours. `first_angle` in radians as in TangentAngle::pole.
 AssembledSlices assemble(const RectifiedStack& stack, const SurfaceMask& mask, double first_angle, int count,
                          int symmetry);
 

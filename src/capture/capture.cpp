@@ -50,6 +50,11 @@ CaptureResult build_capture(const std::vector<std::filesystem::path>& inputs, co
   result.camera = choose_camera(source, options);
 
   const FirstLook look = first_look(source, result.camera, part_of(options.progress, 0, 0.1));
+  if (look.focal) {
+    result.focal = look.focal->scaled(look.factor);
+    result.camera.focal = Vec2::Constant(result.focal->focal);
+    if (result.focal->informed) result.camera.focal_source = kEstimatedFocal;
+  }
   const Mat3 axes = eye_frame(-sphere_at(look.camera, look.centre, look.outline.radius).centre.normalized());
   std::vector<FrameNotes> notes = measure_frames(source, look, axes, part_of(options.progress, 0.1, 0.45));
   result.frames = frames_of(source, notes);

@@ -10,6 +10,7 @@
 #include "sateen/amc/table.h"
 #include "sateen/capture/assemble.h"
 #include "sateen/capture/camera.h"
+#include "sateen/capture/focal_estimate.h"
 #include "sateen/capture/frame_source.h"
 #include "sateen/capture/photometry.h"
 #include "sateen/capture/stack.h"
@@ -80,11 +81,12 @@ struct CaptureFrame {
 struct CaptureResult {
   AmcTable table;
   Camera camera;
-  SphereView sphere;           ///< mean over the turn
-  Vec3 axis{0, 0, 1};          ///< of the turning, view space
-  double wobble = 0;           ///< pixels: radius of the circle the sphere's centre describes
-  double wobble_rms = 0;       ///< pixels: what is left after that circle
-  double outline_support = 0;  ///< share of the outline that stands out against the background
+  std::optional<FocalEstimate> focal;  ///< where nothing told the focal length: what `camera` then has
+  SphereView sphere;                   ///< mean over the turn
+  Vec3 axis{0, 0, 1};                  ///< of the turning, view space
+  double wobble = 0;                   ///< pixels: radius of the circle the sphere's centre describes
+  double wobble_rms = 0;               ///< pixels: what is left after that circle
+  double outline_support = 0;          ///< share of the outline that stands out against the background
   std::vector<CaptureFrame> frames;
   bool equal_steps = false;
   double turned = 0;  ///< radians in all

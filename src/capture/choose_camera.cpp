@@ -41,7 +41,7 @@ Camera choose_camera(const FrameSource& source, const CaptureOptions& options) {
   if (options.focal_mm <= 0 && notes.focal_35mm > 0) {
     return pinhole(notes.focal_35mm * diagonal / std::hypot(36.0, 24.0), "EXIF 35 mm equivalent");
   }
-  return pinhole(focal_of_fov(width, radians(kAssumedFov)), "assumed");
+  return pinhole(focal_of_fov(width, radians(kAssumedFov)), kAssumedFocal);
 }
 
 }  // namespace sateen

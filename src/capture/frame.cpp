@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "sateen/core/colour.h"
 
@@ -58,23 +59,50 @@ float Response::operator()(float code) const {
 Frame::Frame(Picture8 picture, const Response& response)
     : width_(picture.width), height_(picture.height), codes_(std::move(picture.rgb)) {
   for (std::size_t i = 0; i < table_.size(); ++i) table_[i] = response(static_cast<float>(i) / 255.0f);
+  std::ranges::transform(table_, quarter_.begin(), [](float light) {
+    return static_cast<std::uint16_t>(std::clamp(light, 0.0f, 1.0f) * (kWhite / 4) + 0.5f);
+  });
 }
 
 Frame::Frame(Image light, float clip)
     : width_(light.width), height_(light.height), light_(std::move(light)), clip_(clip) {}
 
-float Frame::grey_at(double x, double y) const {
-  const Corners c = corners(x, y, width_, height_);
-  const float top = grey(c.x0, c.y0) + c.fx * (grey(c.x1, c.y0) - grey(c.x0, c.y0));
-  const float bottom = grey(c.x0, c.y1) + c.fx * (grey(c.x1, c.y1) - grey(c.x0, c.y1));
-  return top + c.fy * (bottom - top);
+void Frame::add_grey_row(int x, int y, int factor, std::span<std::uint32_t> sums) const {
+  if (!light_.empty()) {
+    for (std::size_t i = 0; i < sums.size(); ++i) {
+      const int first = x + static_cast<int>(i) * factor;
+      for (int u = first; u < first + factor; ++u)
+        sums[i] += static_cast<std::uint32_t>(std::clamp(grey(u, y), 0.0f, 1.0f) * kWhite + 0.5f);
+    }
+    return;
+  }
+  const std::uint8_t* p = codes_.data() + offset(x, y);
+  for (std::uint32_t& sum : sums) {
+    for (int u = 0; u < factor; ++u, p += 3) sum += quarter_[p[0]] + 2u * quarter_[p[1]] + quarter_[p[2]];
+  }
 }
 
 Vec3f Frame::rgb_at(double x, double y) const {
   const Corners c = corners(x, y, width_, height_);
+  if (light_.empty()) {
+    const std::uint8_t* top = codes_.data() + offset(c.x0, c.y0);
+    const std::uint8_t* bottom = codes_.data() + offset(c.x0, c.y1);
+    const std::ptrdiff_t right = 3 * (c.x1 - c.x0);
+    Vec3f result;
+    for (int i = 0; i < 3; ++i) {
+      const float a = table_[top[i]] + c.fx * (table_[top[i + right]] - table_[top[i]]);
+      const float b = table_[bottom[i]] + c.fx * (table_[bottom[i + right]] - table_[bottom[i]]);
+      result[i] = a + c.fy * (b - a);
+    }
+    return result;
+  }
   const Vec3f top = rgb(c.x0, c.y0) * (1 - c.fx) + rgb(c.x1, c.y0) * c.fx;
   const Vec3f bottom = rgb(c.x0, c.y1) * (1 - c.fx) + rgb(c.x1, c.y1) * c.fx;
   return top * (1 - c.fy) + bottom * c.fy;
+}
+
+Picture8 Frame::take_codes() {
+  return {std::exchange(width_, 0), std::exchange(height_, 0), std::move(codes_)};
 }
 
 Image Frame::crop(int x0, int y0, int width, int height) const {

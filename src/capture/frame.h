@@ -2,6 +2,8 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
+#include <span>
 #include <vector>
 
 #include "sateen/core/image.h"
@@ -52,11 +54,18 @@ class Frame {
     return light_.rgb(x, y).maxCoeff() >= clip_;
   }
   /// Bilinear, clamped to the edge; pixel centres at +0.5.
-  float grey_at(double x, double y) const;
   Vec3f rgb_at(double x, double y) const;
+
+  /// Adds to each sum the grey() of `factor` pixels of row y, from pixel (x, y) on: sums[i] gets those of
+  /// x + i * factor and the factor - 1 after it. kWhite is white.
+  void add_grey_row(int x, int y, int factor, std::span<std::uint32_t> sums) const;
+  static constexpr std::uint32_t kWhite = 65532;
 
   /// The picture's rectangle as light with 3 channels.
   Image crop(int x, int y, int width, int height) const;
+
+  /// Takes the code values out, for their memory's sake; the frame is empty then.
+  Picture8 take_codes();
 
  private:
   std::size_t offset(int x, int y) const {
@@ -67,6 +76,7 @@ class Frame {
   int height_ = 0;
   std::vector<std::uint8_t> codes_;
   std::array<float, 256> table_{};
+  std::array<std::uint16_t, 256> quarter_{};  // table_ in quarters of kWhite
   Image light_;
   float clip_ = 1;
 };

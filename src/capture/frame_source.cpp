@@ -3,9 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <mutex>
+#include <utility>
 
 #include <fmt/format.h>
+#include <tbb/concurrent_queue.h>
 #include <tbb/parallel_pipeline.h>
 #include <tbb/task_arena.h>
 
@@ -109,12 +110,15 @@ std::string FrameSource::name(int index) const {
   return video_ ? fmt::format("{}#{}", file, index * stride_) : file;
 }
 
-Frame FrameSource::decode(int index) const {
+Frame FrameSource::decode(int index, Picture8 memory) const {
   const auto one = [&](const fs::path& file) {
     const std::string extension = extension_of(file);
     const bool floats = extension == ".exr" || extension == ".hdr";
     const bool jpeg = extension == ".jpg" || extension == ".jpeg";
-    if (jpeg || (!floats && read_image_info(file).bits == 8)) return Frame(read_picture8(file), response_);
+    if (jpeg || (!floats && read_image_info(file).bits == 8)) {
+      read_picture8(file, memory);
+      return Frame(std::exchange(memory, {}), response_);
+    }
     Image image = with_channels(read_data(file), 3);
     if (!floats || options_.response) {
       for (float& v : image.data) v = response_(v);
@@ -137,7 +141,8 @@ void FrameSource::visit(std::span<const int> indices, const std::function<void(i
   std::optional<VideoReader> reader;
   if (video_) reader.emplace(files_[0]);
   std::size_t next = 0;
-  int position = 0;  // of the video's next frame
+  int position = 0;                       // of the video's next frame
+  tbb::concurrent_queue<Picture8> spare;  // memory of frames that are done
   const auto tokens = static_cast<std::size_t>(tbb::this_task_arena::max_concurrency()) + (video_ ? 1 : 0);
 
   tbb::parallel_pipeline(
@@ -152,6 +157,7 @@ void FrameSource::visit(std::span<const int> indices, const std::function<void(i
           return item;
         }
         item.index = indices[next++];
+        spare.try_pop(item.picture);
         if (!video_) return item;
         const int wanted = item.index * stride_;
         bool more = true;
@@ -167,12 +173,14 @@ void FrameSource::visit(std::span<const int> indices, const std::function<void(i
         }
         return item;
       }) & tbb::make_filter<Item, void>(tbb::filter_mode::parallel, [&](Item item) {
-        const Frame frame = video_ ? Frame(std::move(item.picture), response_) : decode(item.index);
+        Frame frame =
+            video_ ? Frame(std::move(item.picture), response_) : decode(item.index, std::move(item.picture));
         if (frame.width() != width_ || frame.height() != height_) {
           throw Error(fmt::format("{}: is {} x {} pixels, the first frame is {} x {}; all must be alike",
                                   path(item.index).string(), frame.width(), frame.height(), width_, height_));
         }
         body(item.index, frame);
+        spare.push(frame.take_codes());
       }));
 }
 

@@ -48,7 +48,7 @@ class FrameSource {
   Frame read(int index);
 
  private:
-  Frame decode(int index) const;
+  Frame decode(int index, Picture8 memory = {}) const;
   void spread(int frames);     // the used ones over all `frames` there are
   void found_end(int frames);  // of a video, after `frames`
 

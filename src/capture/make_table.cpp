@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "sateen/capture/make_table.h"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "sateen/core/direction.h"
@@ -9,6 +11,7 @@ namespace sateen {
 namespace {
 
 constexpr int kSymmetrySlices = 48;  // divisible by 2, 3 and 4
+constexpr int kSymmetrySize = 64;    // texels across that tell symmetry as well as more would
 
 /// What a seam hid says nothing about symmetry: there the slice half a turn on stands in, which for R = 2
 /// and 4 is as good as leaving it out.
@@ -26,8 +29,29 @@ void take_unseen_from_opposite(AssembledSlices& whole, int size) {
   }
 }
 
-SymmetryReport symmetry_of(const RectifiedStack& stack, const SurfaceMask& mask, double first_angle,
+/// Every `step`-th texel of every `step`-th row: each still has its own point and samples.
+RectifiedStack thinned(const RectifiedStack& stack, int step) {
+  RectifiedStack thin{stack.size / step, stack.axis, stack.frame, {}, {}, stack.angles};
+  std::vector<std::size_t> kept;
+  for (int y = 0; y < thin.size; ++y) {
+    for (int x = 0; x < thin.size; ++x) kept.push_back(static_cast<std::size_t>((y * stack.size + x) * step));
+  }
+  for (const std::size_t i : kept) thin.points.push_back(stack.points[i]);
+  for (const RectifiedFrame& frame : stack.frames) {
+    RectifiedFrame& copy = thin.frames.emplace_back();
+    copy.size = thin.size;
+    for (const std::size_t i : kept) {
+      copy.rgb.insert(copy.rgb.end(), frame.rgb.begin() + static_cast<std::ptrdiff_t>(3 * i),
+                      frame.rgb.begin() + static_cast<std::ptrdiff_t>(3 * i + 3));
+      copy.weight.push_back(frame.weight[i]);
+    }
+  }
+  return thin;
+}
+
+SymmetryReport symmetry_of(const RectifiedStack& all, const SurfaceMask& mask, double first_angle,
                            double threshold) {
+  const RectifiedStack stack = thinned(all, std::max(1, all.size / kSymmetrySize));
   AssembledSlices whole = assemble(stack, mask, first_angle, kSymmetrySlices, 1);
   take_unseen_from_opposite(whole, stack.size);
   std::vector<AmcFrame> frames;

@@ -6,7 +6,11 @@
 #include <cmath>
 #include <numeric>
 
+#include <tbb/enumerable_thread_specific.h>
+
+#include "sateen/capture/choose_camera.h"
 #include "sateen/capture/median.h"
+#include "sateen/core/error.h"
 
 namespace sateen {
 namespace {
@@ -41,6 +45,35 @@ void leave_out_blank(std::vector<GreyPicture>& pictures) {
   std::erase_if(pictures, [&](const GreyPicture& picture) { return contrast(picture) < 0.35 * typical; });
 }
 
+/// Tries a few focal lengths: under a wrong one the predicted ellipse finds other edges than the sphere's and
+/// fewer of its own. From the best of them on the outline tells. Sets the camera's.
+FocalEstimate find_focal(std::span<const GreyPicture> greys, const Scouting& scouting, Camera& camera) {
+  const Camera assumed = camera;
+  double best = 0;
+  for (const double times : {0.5, 0.7, 1.0, 1.5, 3.0}) {
+    Camera tried = assumed;
+    tried.focal *= times;
+    try {
+      const OutlineFit fit = fit_outlines(greys, scouting, tried);
+      constexpr double kNoise = 0.1;  // pixels: below it residuals tell nothing
+      const double score = fit.support / (kNoise + median(fit.residuals));
+      if (score <= best) continue;
+      best = score;
+      camera = tried;
+    } catch (const Error&) {
+      continue;  // no outline that fits this one
+    }
+  }
+  FocalEstimate found;
+  for (int round = 0; round < 3; ++round) {
+    constexpr double kReach = 4;
+    const OutlineFit fit = fit_outlines(greys, scouting, camera);
+    found = estimate_focal(mean_outline(greys, scouting, camera, fit, kReach), assumed);
+    camera.focal = Vec2::Constant(found.focal);
+  }
+  return found;
+}
+
 }  // namespace
 
 FirstLook first_look(FrameSource& source, const Camera& camera, const Progress& progress) {
@@ -63,6 +96,7 @@ FirstLook first_look(FrameSource& source, const Camera& camera, const Progress& 
   std::erase_if(greys, [](const GreyPicture& grey) { return grey.codes.empty(); });
   leave_out_blank(greys);
   look.scouting = find_sphere(greys);
+  if (camera.focal_source == kAssumedFocal) look.focal = find_focal(greys, look.scouting, look.camera);
   look.outline = fit_outlines(greys, look.scouting, look.camera);
   for (const Vec2& c : look.outline.centres)
     look.centre += c / static_cast<double>(look.outline.centres.size());
@@ -112,9 +146,11 @@ std::vector<FrameNotes> measure_frames(FrameSource& source, const FirstLook& loo
   std::vector<int> indices(notes.size());
   std::iota(indices.begin(), indices.end(), 0);
   std::atomic<int> done = 0;
+  tbb::enumerable_thread_specific<GreyPicture> greys;
   source.visit(indices, [&](int index, const Frame& frame) {
     FrameNotes& note = notes[static_cast<std::size_t>(index)];
-    const GreyPicture grey = grey_picture(frame, look.factor, region);
+    GreyPicture& grey = greys.local();
+    grey_picture(frame, look.factor, region, grey);
     note.still = sample_still_points(look.still, frame);
     const double gain = code_gain(look, note.still);
     note.centre = look.centre;

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "sateen/capture/capture.h"
+#include "sateen/capture/focal_estimate.h"
 #include "sateen/capture/outline.h"
 #include "sateen/capture/turning.h"
 
@@ -11,8 +13,9 @@ namespace sateen {
 
 /// What a first look at a few frames finds: where the sphere is, and what stands still. In grey pixels.
 struct FirstLook {
-  int factor = 1;  ///< picture pixels per grey pixel
-  Camera camera;   ///< of the grey pictures
+  int factor = 1;                      ///< picture pixels per grey pixel
+  Camera camera;                       ///< of the grey pictures
+  std::optional<FocalEstimate> focal;  ///< where the camera's was only assumed; `camera` has it already
   Scouting scouting;
   OutlineFit outline;
   Vec2 centre{0, 0};               ///< mean of the scouts' centres

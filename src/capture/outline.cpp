@@ -56,9 +56,10 @@ double plate_at(const Plate& plate, double x, double y) {
 }
 
 struct EdgePoint {
-  Vec2 outward{0, 0};   // pixel direction
-  double offset = 0;    // pixels along it
-  double strength = 0;  // light per pixel
+  std::size_t azimuth = 0;  // of kAzimuths
+  Vec2 outward{0, 0};       // pixel direction
+  double offset = 0;        // pixels along it
+  double strength = 0;      // light per pixel
 };
 
 /// The steepest change of `difference` to the background along the profile, as the centroid of its slope.
@@ -149,10 +150,9 @@ void quieten(std::vector<std::vector<double>>& profiles, double noise) {
   }
 }
 
-}  // namespace
-
-OutlineOffset measure_outline(const GreyPicture& frame, double gain, const Plate& plate, const Camera& camera,
-                              const SphereView& sphere, double reach, bool fixed_radius) {
+/// The outline's seen points within `reach` pixels of where `sphere` predicts it.
+std::vector<EdgePoint> find_edges(const GreyPicture& frame, double gain, const Plate& plate,
+                                  const Camera& camera, const SphereView& sphere, double reach) {
   const Vec2 centre = sphere.centre_pixel(camera);
   const auto n = static_cast<std::size_t>(2 * reach / kStep) + 1;
   const double light_gain = gain * gain;
@@ -181,61 +181,128 @@ OutlineOffset measure_outline(const GreyPicture& frame, double gain, const Plate
   std::vector<EdgePoint> edges;
   for (std::size_t i = 0; i < profiles.size(); ++i) {
     EdgePoint edge;
+    edge.azimuth = i;
     edge.outward = outward[i];
     if (find_edge(profiles[i], reach, edge) && edge.strength > 0.004) edges.push_back(edge);
   }
-  return fit_offset(edges, fixed_radius);
+  return edges;
 }
 
-namespace {
+/// The background in a ring around the spheres, as the median over the frames that show it clear of the
+/// outline. One instance serves a capture; beyond the reach of every frame's sphere nothing changes.
+class Background {
+ public:
+  Background(std::span<const GreyPicture> frames, const Scouting& scouting, const Camera& camera)
+      : frames_(frames), scouting_(scouting), camera_(camera) {
+    plate_.width = frames[0].width;
+    plate_.height = frames[0].height;
+    plate_.noise = scouting.noise;
+    plate_.light.assign(frames[0].codes.size(), -1);
+    clear_.assign(plate_.light.size(), 0);
+  }
 
-/// The background in a ring around the spheres: the median over the frames that show it clear of the outline.
-Plate background_plate(std::span<const GreyPicture> frames, const Scouting& scouting,
-                       const std::vector<Vec2>& centres, double radius, double margin) {
-  Plate plate;
-  plate.width = frames[0].width;
-  plate.height = frames[0].height;
-  plate.noise = scouting.noise;
-  plate.light.assign(frames[0].codes.size(), -1);
-  Vec2 middle(0, 0);
-  for (const Vec2& c : centres) middle += c / static_cast<double>(centres.size());
-  const double ring = radius * 1.1 + 12;
-  parallel_for(plate.height, [&](int y) {
-    std::vector<float> values;
-    for (int x = 0; x < plate.width; ++x) {
-      const Vec2 p(x + 0.5, y + 0.5);
-      const double distance = (p - middle).norm();
-      if (distance > ring || distance < 0.8 * radius) continue;
-      values.clear();
-      const auto i = static_cast<std::size_t>(y * plate.width + x);
-      for (std::size_t f = 0; f < frames.size(); ++f) {
-        if ((p - centres[f]).norm() < radius + margin) continue;
-        const double gain = static_cast<double>(scouting.gain[f]);
-        values.push_back(static_cast<float>(light_of(frames[f].codes[i]) / (gain * gain)));
-      }
-      if (values.empty()) continue;
-      const auto half = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-      std::ranges::nth_element(values, half);
-      plate.light[i] = *half;
+  /// With the spheres at `centres`, widened by `margin` pixels. An outline is a cone of rays about the
+  /// direction of the sphere: that holds for the ellipses of a near camera as well.
+  const Plate& around(const std::vector<Vec2>& centres, double radius, double margin) {
+    const double focal = camera_.focal.mean();
+    std::vector<Vec3> spheres;
+    Vec3 middle(0, 0, 0);
+    for (const Vec2& c : centres) {
+      spheres.push_back(camera_.ray(c));
+      middle += spheres.back();
     }
-  });
-  return plate;
-}
+    middle.normalize();
+    double spread = 0;
+    for (const Vec3& sphere : spheres)
+      spread = std::max(spread, std::acos(std::min(1.0, sphere.dot(middle))));
+    const double cone = std::atan(radius / focal) + margin / focal;
+    const double own = std::cos(cone);
+    const double ring = std::cos(std::atan((radius * 1.1 + 12) / focal));
+    const double clear_of_all = std::cos(cone + spread);
+    const double hidden_in_all = std::cos(std::max(0.0, cone - spread));
+    const Vec2 seen_middle = camera_.project(middle);
+    const double farthest = 2 * radius + 24;  // the longest ellipse there may be
+    parallel_for(plate_.height, [&](int y) {
+      std::vector<float> values;
+      for (int x = 0; x < plate_.width; ++x) {
+        const Vec2 p(x + 0.5, y + 0.5);
+        if ((p - seen_middle).squaredNorm() > farthest * farthest) continue;
+        const Vec3 ray = camera_.ray(p);
+        const double cosine = ray.dot(middle);
+        if (cosine < ring) continue;
+        const auto i = static_cast<std::size_t>(y) * static_cast<std::size_t>(plate_.width) +
+                       static_cast<std::size_t>(x);
+        const bool clear = cosine <= clear_of_all;
+        if (clear && clear_[i] != 0) continue;
+        clear_[i] = clear ? 1 : 0;
+        plate_.light[i] = -1;
+        if (cosine > hidden_in_all) continue;
+        values.clear();
+        for (std::size_t f = 0; f < frames_.size(); ++f) {
+          if (!clear && ray.dot(spheres[f]) > own) continue;
+          const double gain = static_cast<double>(scouting_.gain[f]);
+          values.push_back(static_cast<float>(light_of(frames_[f].codes[i]) / (gain * gain)));
+        }
+        if (values.empty()) continue;
+        const auto half = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+        std::ranges::nth_element(values, half);
+        plate_.light[i] = *half;
+      }
+    });
+    return plate_;
+  }
+
+ private:
+  std::span<const GreyPicture> frames_;
+  const Scouting& scouting_;
+  Camera camera_;
+  Plate plate_;
+  std::vector<std::uint8_t> clear_;  // 1: the median of all frames is known
+};
 
 }  // namespace
 
+OutlineOffset measure_outline(const GreyPicture& frame, double gain, const Plate& plate, const Camera& camera,
+                              const SphereView& sphere, double reach, bool fixed_radius) {
+  return fit_offset(find_edges(frame, gain, plate, camera, sphere, reach), fixed_radius);
+}
+
+std::vector<Vec2> mean_outline(std::span<const GreyPicture> frames, const Scouting& scouting,
+                               const Camera& camera, const OutlineFit& fit, double reach) {
+  std::vector<std::vector<EdgePoint>> edges(frames.size());
+  parallel_for(static_cast<int>(frames.size()), [&](int f) {
+    const auto i = static_cast<std::size_t>(f);
+    edges[i] = find_edges(frames[i], static_cast<double>(scouting.gain[i]), fit.plate, camera,
+                          sphere_at(camera, fit.centres[i], fit.radius), reach);
+  });
+  std::vector<std::vector<double>> offsets(kAzimuths);
+  for (const std::vector<EdgePoint>& frame : edges) {
+    for (const EdgePoint& edge : frame) offsets[edge.azimuth].push_back(edge.offset);
+  }
+  Vec2 middle(0, 0);
+  for (const Vec2& c : fit.centres) middle += c / static_cast<double>(fit.centres.size());
+  const SphereView sphere = sphere_at(camera, middle, fit.radius);
+  std::vector<Vec2> outline;
+  for (std::size_t i = 0; i < offsets.size(); ++i) {
+    if (offsets[i].size() * 3 < frames.size() || offsets[i].empty()) continue;
+    const Vec2 rim = sphere.outline_pixel(camera, 2 * kPi * static_cast<double>(i) / kAzimuths);
+    outline.push_back(rim + median(offsets[i]) * (rim - middle).normalized());
+  }
+  return outline;
+}
+
 OutlineFit fit_outlines(std::span<const GreyPicture> frames, const Scouting& scouting, const Camera& camera) {
-  OutlineFit fit;
   const std::size_t n = frames.size();
+  OutlineFit fit;
   fit.radius = scouting.radius;
   fit.centres.assign(n, scouting.centre);
   fit.residuals.assign(n, 0);
+  Background background(frames, scouting, camera);
   // The swept circle is larger than the sphere by the wobble, which is unknown yet: the first search is wide.
   const double widest = std::clamp(0.15 * scouting.radius, 8.0, 30.0);
   const std::vector<double> reaches{widest, std::max(6.0, widest / 2), 6, 4, 3, 3};
   for (std::size_t round = 0; round < reaches.size(); ++round) {
-    const double margin = round == 0 ? 3 : 2;
-    fit.plate = background_plate(frames, scouting, fit.centres, fit.radius, margin);
+    fit.plate = background.around(fit.centres, fit.radius, round == 0 ? 3 : 2);
     std::vector<OutlineOffset> offsets(n);
     parallel_for(static_cast<int>(n), [&](int f) {
       const auto i = static_cast<std::size_t>(f);

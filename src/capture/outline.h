@@ -40,6 +40,11 @@ struct OutlineFit {
   Plate plate;
 };
 
+/// The outline that the frames show on average, as pixels around the mean of the fit's centres: at each
+/// azimuth the middle of what the frames show within `reach` pixels of the fit; none where too few do.
+std::vector<Vec2> mean_outline(std::span<const GreyPicture> frames, const Scouting& scouting,
+                               const Camera& camera, const OutlineFit& fit, double reach);
+
 /// The sphere of each scout frame, sub-pixel, from the coarse circle; in pixels of the grey pictures, whose
 /// camera is `camera`. Throws Error when no outline stands out against the background.
 OutlineFit fit_outlines(std::span<const GreyPicture> frames, const Scouting& scouting, const Camera& camera);

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <complex>
 
 #include "sateen/capture/median.h"
 #include "sateen/capture/turning.h"
@@ -75,13 +74,38 @@ cv::Mat polar(const cv::Mat& image, const std::vector<Vec2f>& places) {
   return result;
 }
 
+// Of a real signal the upper half of the frequencies mirrors the lower: spectra have kHalf columns.
+constexpr int kHalf = kBins / 2 + 1;
+
+cv::Mat half_spectrum(const cv::Mat& rows) {
+  cv::Mat whole;
+  cv::dft(rows, whole, cv::DFT_ROWS | cv::DFT_COMPLEX_OUTPUT);
+  return whole.colRange(0, kHalf).clone();
+}
+
+/// Sum of the squares of the whole spectrum.
+double power(const cv::Mat& half) {
+  return 2 * cv::norm(half, cv::NORM_L2SQR) - cv::norm(half.col(0), cv::NORM_L2SQR) -
+         cv::norm(half.col(kHalf - 1), cv::NORM_L2SQR);
+}
+
 PolarPeak correlate(const cv::Mat& turned, const cv::Mat& still) {
-  cv::Mat product;
-  cv::mulSpectrums(turned, still, product, cv::DFT_ROWS, true);
-  cv::Mat sum;
-  cv::reduce(product, sum, 0, cv::REDUCE_SUM);
+  cv::Mat product = cv::Mat::zeros(1, kBins, CV_32FC2);
+  auto* sum = product.ptr<float>(0);
+  for (int r = 0; r < turned.rows; ++r) {
+    const auto* a = turned.ptr<float>(r);
+    const auto* b = still.ptr<float>(r);
+    for (int f = 0; f < 2 * kHalf; f += 2) {
+      sum[f] += a[f] * b[f] + a[f + 1] * b[f + 1];
+      sum[f + 1] += a[f + 1] * b[f] - a[f] * b[f + 1];
+    }
+  }
+  for (int f = kHalf; f < kBins; ++f) {
+    sum[2 * f] = sum[2 * (kBins - f)];
+    sum[2 * f + 1] = -sum[2 * (kBins - f) + 1];
+  }
   cv::Mat score;
-  cv::dft(sum, score, cv::DFT_INVERSE | cv::DFT_ROWS | cv::DFT_REAL_OUTPUT);
+  cv::dft(product, score, cv::DFT_INVERSE | cv::DFT_ROWS | cv::DFT_REAL_OUTPUT);
   const float* s = score.ptr<float>(0);
   const auto best = static_cast<int>(std::max_element(s, s + kBins) - s);
   const double left = static_cast<double>(s[(best + kBins - 1) % kBins]);
@@ -91,24 +115,26 @@ PolarPeak correlate(const cv::Mat& turned, const cv::Mat& still) {
   const double offset = curve < 0 ? 0.5 * (left - right) / curve : 0;
   PolarPeak peak;
   peak.angle = 2 * kPi * (best + offset) / kBins;
-  const double norms = cv::norm(turned) * cv::norm(still);
+  const double norms = std::sqrt(power(turned) * power(still));
   // Parseval: the inverse transform here is unscaled, as the norms of the spectra are.
   peak.height = norms > 0 ? middle / norms : 0;
   return peak;
 }
 
 /// Adds a spectrum turned back by `angle`: a shift is a phase for each frequency.
-void add_turned_back(cv::Mat& sum, const cv::Mat& spectrum, double angle, double sign) {
-  std::vector<std::complex<float>> phase(kBins);
-  for (int f = 0; f < kBins; ++f) {
-    const int frequency = f <= kBins / 2 ? f : f - kBins;
-    phase[static_cast<std::size_t>(f)] =
-        std::polar(static_cast<float>(sign), static_cast<float>(frequency * angle));
+void add_turned_back(cv::Mat& sum, const cv::Mat& spectrum, double angle, float sign) {
+  std::vector<Vec2f> phase(kHalf);
+  for (int f = 0; f < kHalf; ++f) {
+    const double p = f * angle;
+    phase[static_cast<std::size_t>(f)] = sign * Vec2(std::cos(p), std::sin(p)).cast<float>();
   }
   for (int r = 0; r < kRings; ++r) {
-    const auto* in = spectrum.ptr<std::complex<float>>(r);
-    auto* out = sum.ptr<std::complex<float>>(r);
-    for (int f = 0; f < kBins; ++f) out[f] += in[f] * phase[static_cast<std::size_t>(f)];
+    const auto* in = spectrum.ptr<Vec2f>(r);
+    auto* out = sum.ptr<Vec2f>(r);
+    for (std::size_t f = 0; f < kHalf; ++f) {
+      out[f].x() += in[f].x() * phase[f].x() - in[f].y() * phase[f].y();
+      out[f].y() += in[f].x() * phase[f].y() + in[f].y() * phase[f].x();
+    }
   }
 }
 
@@ -118,7 +144,7 @@ PolarPictures::PolarPictures(const std::vector<cv::Mat>& images, const Vec3& axi
   const std::vector<Vec2f> places = unrolled(images[0].cols, axis);
   parallel_for(static_cast<int>(images.size()), [&](int i) {
     const auto f = static_cast<std::size_t>(i);
-    cv::dft(polar(images[f], places), spectra_[f], cv::DFT_ROWS | cv::DFT_COMPLEX_OUTPUT);
+    spectra_[f] = half_spectrum(polar(images[f], places));
   });
 }
 

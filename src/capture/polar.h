@@ -41,7 +41,7 @@ class PolarPictures {
   double contradiction(const std::vector<double>& angles) const;
 
  private:
-  std::vector<cv::Mat> spectra_;  // per frame: rings x angles, complex
+  std::vector<cv::Mat> spectra_;  // per frame: rings x frequencies, complex
 };
 
 }  // namespace sateen

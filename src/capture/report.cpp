@@ -89,6 +89,30 @@ std::string chart(const CaptureResult& result, const std::string& title, const s
       title, dropped, points, high, low, unit);
 }
 
+/// How alike the material is after each turn, with the threshold from which it counts as the same.
+std::string symmetry_chart(const SymmetryReport& symmetry) {
+  constexpr double kMost = 60;  // dB: alike for every purpose
+  const auto across = [=](double psnr) { return 64 + 376 * std::clamp(psnr, 0.0, kMost) / kMost; };
+  std::string bars;
+  double y = 16;
+  for (const Similarity& s : symmetry.similarities) {
+    if (s.turns < 2) continue;
+    bars += fmt::format(
+        "<rect x='64' y='{0:.0f}' width='{1:.1f}' height='20' class='{2}'/><text x='58' y='{3:.0f}' "
+        "text-anchor='end'>R = {4}</text><text x='{5:.1f}' y='{3:.0f}'>{6:.1f}</text>",
+        y, across(s.psnr) - 64, s.psnr >= symmetry.threshold ? "same" : "other", y + 15, s.turns,
+        std::min(across(s.psnr) + 6, 400.0), s.psnr);
+    y += 30;
+  }
+  const double limit = across(symmetry.threshold);
+  return fmt::format(
+      "<figure><svg viewBox='0 0 450 120' role='img' aria-label='Symmetry'>{0}<line x1='{1:.1f}' "
+      "x2='{1:.1f}' "
+      "y1='10' y2='106' class='limit'/></svg><figcaption>Alike after 1/R of a turn, dB; right of the line "
+      "({2:.0f} dB) it counts as the same</figcaption></figure>",
+      bars, limit, symmetry.threshold);
+}
+
 /// The preview frame with the sphere's outline, centre and axis drawn on it.
 std::string framing(const CaptureResult& result, const std::string& picture) {
   const double scale = static_cast<double>(result.preview.width) / result.camera.width;
@@ -156,6 +180,7 @@ ul{padding-left:1.2rem}li{margin:.3rem 0}
 svg,img{max-width:100%}.wide{width:100%;background:#000}
 .outline{fill:none;stroke:#3f6;stroke-width:1.5}.axis{fill:none;stroke:#fc3;stroke-width:2}
 .tangent{fill:#f4a;stroke:#f4a;stroke-width:2}
+.same{fill:#7b7}.other{fill:#bbb}.limit{stroke:#c33;stroke-width:2}
 .frame{fill:#fff;stroke:#bbb}.drop{stroke:#e77}circle{fill:#26c}text{font-size:14px;fill:#555}
 .row{display:grid;grid-template-columns:repeat(auto-fit,minmax(min(100%,400px),1fr));gap:1rem}figure{margin:0}figcaption{font-size:.85rem;color:#555}
 table{border-collapse:collapse}td,th{padding:.15rem .8rem .15rem 0;text-align:left;vertical-align:top}
@@ -232,7 +257,8 @@ void write_report(const fs::path& folder, const CaptureResult& result) {
       "<h2>What was found</h2>{}<p><small>Green: the sphere's outline and centre. Yellow cross: where the "
       "turning axis leaves "
       "it. Pink: the tangent's direction in this frame.</small></p><h2>Slices</h2>{}<h2>Frame by frame</h2>"
-      "<div class='row'>{}{}{}{}</div><h2>Seams and highlights</h2><div class='row'>{}{}</div>{}</html>\n",
+      "<div class='row'>{}{}{}{}</div><h2>Symmetry</h2><div class='row'>{}</div><h2>Seams and highlights</h2>"
+      "<div class='row'>{}{}</div>{}</html>\n",
       kStyle, verdict, facts(result), framing(result, data_url(folder, result.preview)),
       picture(contact_sheet(result.table), "Slices at eight tangent angles, and two cuts along the angle"),
       chart(result, "Turned", "degrees", [](const CaptureFrame& f) { return degrees(f.turned); }),
@@ -240,6 +266,7 @@ void write_report(const fs::path& folder, const CaptureResult& result) {
       chart(result, "Centre across", "pixels",
             [&](const CaptureFrame& f) { return f.centre.x() - middle.x(); }),
       chart(result, "Sharpness", "relative", [](const CaptureFrame& f) { return f.sharpness; }),
+      symmetry_chart(result.symmetry),
       picture(mask_picture(result), "The surface as it lies in the first frame; red: masked"),
       picture(clipped_picture(result), "Bright: clipped in many frames"), dropped);
   write_text(folder / "report.html", html);

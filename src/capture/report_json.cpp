@@ -3,6 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "sateen/capture/advice.h"
 #include "sateen/capture/report.h"
 
 namespace sateen {
@@ -54,6 +55,12 @@ std::string report_json(const CaptureResult& result) {
                     {"focal_pixels", {fine(result.camera.focal.x()), fine(result.camera.focal.y())}},
                     {"principal", {fine(result.camera.principal.x()), fine(result.camera.principal.y())}},
                     {"source", result.camera.focal_source}};
+  if (result.focal) {
+    const LensEffect effect = focal_effect(result);
+    json["camera"]["focal_interval"] = {fine(result.focal->low), fine(result.focal->high)};
+    json["camera"]["normals_off_degrees"] = fine(effect.normals);
+    json["camera"]["tangents_off_degrees"] = fine(effect.tangents);
+  }
   json["axis"] = {{"direction", {fine(result.axis.x()), fine(result.axis.y()), fine(result.axis.z())}},
                   {"pole", {fine(pole.x()), fine(pole.y())}}};
   json["turn"] = {{"degrees", fine(degrees(result.turned))},

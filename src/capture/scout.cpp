@@ -31,35 +31,33 @@ int grey_factor(int width, int height) {
 }
 
 GreyPicture grey_picture(const Frame& frame, int factor) {
-  return grey_picture(frame, factor, {0, 0, frame.width() / factor, frame.height() / factor});
+  GreyPicture picture;
+  grey_picture(frame, factor, {0, 0, frame.width() / factor, frame.height() / factor}, picture);
+  return picture;
 }
 
-GreyPicture grey_picture(const Frame& frame, int factor, const GreyRegion& region) {
-  GreyPicture picture;
+void grey_picture(const Frame& frame, int factor, const GreyRegion& region, GreyPicture& picture) {
+  // The root of every light there is.
+  static const std::vector<std::uint8_t> codes = [] {
+    std::vector<std::uint8_t> table(Frame::kWhite + 1);
+    for (std::size_t i = 0; i < table.size(); ++i)
+      table[i] = static_cast<std::uint8_t>(255 * std::sqrt(static_cast<double>(i) / Frame::kWhite) + 0.5);
+    return table;
+  }();
   picture.width = frame.width() / factor;
   picture.height = frame.height() / factor;
   picture.codes.resize(static_cast<std::size_t>(picture.width) * static_cast<std::size_t>(picture.height));
-  const float scale = 1.0f / static_cast<float>(factor * factor);
   const int first = std::max(0, region.left);
   const int end = std::min(picture.width, region.right);
-  // Look-ups and roots apart: the roots then take several pixels at once.
-  std::vector<float> light(static_cast<std::size_t>(std::max(0, end - first)));
+  const auto pixels = static_cast<std::uint32_t>(factor * factor);
+  std::vector<std::uint32_t> sums(static_cast<std::size_t>(std::max(0, end - first)));
   for (int y = std::max(0, region.top); y < std::min(picture.height, region.bottom); ++y) {
-    for (std::size_t i = 0; i < light.size(); ++i) {
-      const int x = (first + static_cast<int>(i)) * factor;
-      float sum = 0;
-      for (int v = 0; v < factor; ++v) {
-        for (int u = 0; u < factor; ++u) sum += frame.grey(x + u, y * factor + v);
-      }
-      light[i] = std::clamp(sum * scale, 0.0f, 1.0f);
-    }
-    Eigen::Map<Eigen::ArrayXf> row(light.data(), static_cast<Eigen::Index>(light.size()));
-    row = 255 * row.sqrt() + 0.5f;
-    std::transform(light.begin(), light.end(),
+    std::ranges::fill(sums, 0u);
+    for (int v = 0; v < factor; ++v) frame.add_grey_row(first * factor, y * factor + v, factor, sums);
+    std::transform(sums.begin(), sums.end(),
                    picture.codes.begin() + static_cast<std::ptrdiff_t>(y) * picture.width + first,
-                   [](float code) { return static_cast<std::uint8_t>(static_cast<int>(code)); });
+                   [&](std::uint32_t sum) { return codes[sum / pixels]; });
   }
-  return picture;
 }
 
 namespace {
@@ -103,18 +101,23 @@ void measure_activity(std::span<const GreyPicture> frames, Scouting& scouting) {
   for (int round = 0; round < 2; ++round) {
     if (round > 0) scouting.gain = gains(frames, scouting.mean);
     parallel_for(height, [&](int y) {
-      for (int x = 0; x < width; ++x) {
-        const auto i = static_cast<std::size_t>(y * width + x);
-        float sum = 0;
-        float squares = 0;
-        for (std::size_t f = 0; f < frames.size(); ++f) {
-          const float v = static_cast<float>(frames[f].codes[i]) / scouting.gain[f];
-          sum += v;
-          squares += v * v;
+      const auto row = static_cast<std::size_t>(y) * static_cast<std::size_t>(width);
+      std::vector<float> sums(static_cast<std::size_t>(width), 0);
+      std::vector<float> squares(sums.size(), 0);
+      for (std::size_t f = 0; f < frames.size(); ++f) {
+        const std::uint8_t* codes = frames[f].codes.data() + row;
+        const float scale = 1 / scouting.gain[f];
+        for (std::size_t x = 0; x < sums.size(); ++x) {
+          const float v = static_cast<float>(codes[x]) * scale;
+          sums[x] += v;
+          squares[x] += v * v;
         }
-        const auto n = static_cast<float>(frames.size());
-        scouting.mean[i] = sum / n;
-        scouting.activity[i] = std::sqrt(std::max(0.0f, squares / n - sum / n * (sum / n)));
+      }
+      const auto n = static_cast<float>(frames.size());
+      for (std::size_t x = 0; x < sums.size(); ++x) {
+        const float mean = sums[x] / n;
+        scouting.mean[row + x] = mean;
+        scouting.activity[row + x] = std::sqrt(std::max(0.0f, squares[x] / n - mean * mean));
       }
     });
   }
@@ -226,29 +229,29 @@ std::vector<Blob> active_blobs(const Scouting& s, int width, int height, double 
   return blobs;
 }
 
-/// Translation of the background between two frames by phase correlation of their halves' sizes, pixels.
-double background_motion(const GreyPicture& a, const GreyPicture& b, const Circle& sphere) {
-  const auto prepared = [&](const GreyPicture& picture) {
-    cv::Mat full(picture.height, picture.width, CV_8U, const_cast<std::uint8_t*>(picture.codes.data()));
-    cv::Mat image;
-    cv::resize(full, image, {}, 0.5, 0.5, cv::INTER_AREA);
-    image.convertTo(image, CV_32F);
-    cv::Mat smooth;
-    cv::blur(image, smooth, {31, 31});
-    image -= smooth;
-    // What turns must not vote: it is faded out softly, so that its edge does not vote for standing still.
-    if (sphere.radius > 0) {
-      for (int y = 0; y < image.rows; ++y) {
-        for (int x = 0; x < image.cols; ++x) {
-          const double r = (Vec2(2 * x + 1, 2 * y + 1) - sphere.centre).norm() / sphere.radius;
-          image.at<float>(y, x) *= static_cast<float>(std::clamp((r - 1.1) * 4, 0.0, 1.0));
-        }
+/// What phase correlation needs of a frame: half its size, the background's detail alone.
+cv::Mat background_detail(const GreyPicture& picture, const Circle& sphere) {
+  cv::Mat full(picture.height, picture.width, CV_8U, const_cast<std::uint8_t*>(picture.codes.data()));
+  cv::Mat image;
+  cv::resize(full, image, {}, 0.5, 0.5, cv::INTER_AREA);
+  image.convertTo(image, CV_32F);
+  cv::Mat smooth;
+  cv::blur(image, smooth, {31, 31});
+  image -= smooth;
+  // What turns must not vote: it is faded out softly, so that its edge does not vote for standing still.
+  if (sphere.radius > 0) {
+    for (int y = 0; y < image.rows; ++y) {
+      for (int x = 0; x < image.cols; ++x) {
+        const double r = (Vec2(2 * x + 1, 2 * y + 1) - sphere.centre).norm() / sphere.radius;
+        image.at<float>(y, x) *= static_cast<float>(std::clamp((r - 1.1) * 4, 0.0, 1.0));
       }
     }
-    return image;
-  };
-  const cv::Mat first = prepared(a);
-  const cv::Mat second = prepared(b);
+  }
+  return image;
+}
+
+/// Translation between two background_detail, pixels of the frames.
+double background_motion(const cv::Mat& first, const cv::Mat& second) {
   double response = 0;
   const cv::Point2d shift = cv::phaseCorrelate(first, second, cv::noArray(), &response);
   return response > 0.05 ? 2 * std::hypot(shift.x, shift.y) : 0;
@@ -256,10 +259,11 @@ double background_motion(const GreyPicture& a, const GreyPicture& b, const Circl
 
 void check_camera(std::span<const GreyPicture> frames, const Circle& sphere, Scouting& s) {
   const std::size_t n = frames.size();
+  const cv::Mat first = background_detail(frames[0], sphere);
   std::size_t last_still = 0;
   for (std::size_t i = 1; i <= 4; ++i) {
     const std::size_t f = i * (n - 1) / 4;
-    const double moved = background_motion(frames[0], frames[f], sphere);
+    const double moved = background_motion(first, background_detail(frames[f], sphere));
     s.moved = std::max(s.moved, moved);
     if (moved > 1.5) {
       throw Error(fmt::format(
@@ -280,7 +284,8 @@ Scouting find_sphere(std::span<const GreyPicture> frames) {
   const int width = frames[0].width;
   const int height = frames[0].height;
 
-  std::vector<float> sorted = s.activity;
+  std::vector<float> sorted;
+  for (std::size_t i = 0; i < s.activity.size(); i += kGrid) sorted.push_back(s.activity[i]);
   const auto low = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 10);
   std::ranges::nth_element(sorted, low);
   s.noise = std::max(0.3, 1.25 * static_cast<double>(*low));

@@ -34,9 +34,10 @@ struct GreyRegion {
   int bottom = 0;
 };
 
-/// The whole picture, or only `region` with 0 elsewhere.
 GreyPicture grey_picture(const Frame& frame, int factor);
-GreyPicture grey_picture(const Frame& frame, int factor, const GreyRegion& region);
+
+/// Only `region`, into a picture that is there: what lies outside of it, 0 at first, stays as it is.
+void grey_picture(const Frame& frame, int factor, const GreyRegion& region, GreyPicture& picture);
 
 /// What a few frames of a capture, spread over the turn, say of where the turning sphere is. In pixels of
 /// GreyPicture.

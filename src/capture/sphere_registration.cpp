@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 
 #include <opencv2/imgproc.hpp>
 
@@ -15,31 +16,24 @@ namespace sateen {
 namespace {
 
 constexpr double kReach = kPatchReach * kPatchReach * 0.96;  // of the patch's disc, squared
-constexpr int kRatios = 256;
-
-/// Sine of the angle at the sphere's centre, for the same pixel, when the sphere is seen under another half
-/// angle: pixels keep their tangent of the ray's angle relative to the outline's.
-double other_sine(double sine, double half_angle, double other) {
-  const double distance = 1 / std::sin(half_angle);
-  const double tangent = sine / (distance - std::sqrt(1 - sine * sine));
-  const double ray = std::atan(tangent / std::tan(half_angle) * std::tan(other));
-  return std::sin(std::asin(std::min(1.0, std::sin(ray) / std::sin(other))) - ray);
-}
 
 Mat3 turn(const Vec3& axis, double angle) {
   return Eigen::AngleAxisd(angle, axis).toRotationMatrix();
 }
 
 /// Calls body(pixel of the surface (the disc at angle 0), its normal, the frame's value there) for every
-/// pixel that a frame turned by `rotation` shows inside its own disc.
+/// `every`-th pixel that a frame turned by `rotation` shows inside its own disc.
 template <class Body>
-void for_shown(const PatchNormals& normals, const cv::Mat& image, const Mat3& rotation, Body body) {
+void for_shown(const PatchNormals& normals, const cv::Mat& image, const Mat3& rotation, int every,
+               const Body& body) {
   const Eigen::Matrix3f turned = rotation.cast<float>();
   const int size = normals.size();
   const float* pixels = image.ptr<float>(0);
   float x = 0;
   float y = 0;
-  for (const PatchNormals::Entry& entry : normals.entries()) {
+  const std::span<const PatchNormals::Entry> entries = normals.entries();
+  for (std::size_t i = 0; i < entries.size(); i += static_cast<std::size_t>(every)) {
+    const PatchNormals::Entry& entry = entries[i];
     if (!normals.pixel(turned * entry.normal, x, y)) continue;
     const int x0 = static_cast<int>(x);
     const int y0 = static_cast<int>(y);
@@ -51,6 +45,29 @@ void for_shown(const PatchNormals& normals, const cv::Mat& image, const Mat3& ro
     body(entry.index, entry.normal, top + fy * (bottom - top));
   }
 }
+
+/// A dozen sums of many small floats: added up in floats a few hundred at a time, then in doubles.
+class Sums {
+ public:
+  using Terms = Eigen::Array<float, 12, 1>;
+  void add(const Terms& terms) {
+    part_ += terms;
+    if (++count_ % 256 == 0) flush();
+  }
+  Eigen::Array<double, 12, 1> total() {
+    flush();
+    return total_;
+  }
+
+ private:
+  void flush() {
+    total_ += part_.cast<double>();
+    part_.setZero();
+  }
+  Terms part_ = Terms::Zero();
+  Eigen::Array<double, 12, 1> total_ = Eigen::Array<double, 12, 1>::Zero();
+  int count_ = 0;
+};
 
 }  // namespace
 
@@ -68,38 +85,19 @@ std::vector<cv::Mat> moving_detail(std::span<const SurfacePatch> patches) {
   return images;
 }
 
-PatchNormals::PatchNormals(int size, double made_for, double half_angle) : size_(size) {
-  const bool bent = made_for != half_angle;
+PatchNormals::PatchNormals(int size) : size_(size) {
   for (int y = 0; y < size; ++y) {
     for (int x = 0; x < size; ++x) {
       const Vec2 disc = kPatchReach * disc_of_pixel(x, y, size);
       if (disc.squaredNorm() > kReach) continue;
-      Vec2 normal = disc;
-      if (bent && disc.norm() > 1e-9) normal *= other_sine(disc.norm(), made_for, half_angle) / disc.norm();
-      entries_.push_back(
-          {y * size + x,
-           Vec3(normal.x(), normal.y(), std::sqrt(std::max(0.0, 1 - normal.squaredNorm()))).cast<float>()});
+      entries_.push_back({y * size + x, normal_on_disc(disc).cast<float>()});
     }
-  }
-  if (!bent) return;
-  for (int i = 0; i <= kRatios; ++i) {
-    const double sine = std::sqrt(std::clamp(static_cast<double>(i) / kRatios, 1e-4, 0.9999));
-    ratio_.push_back(static_cast<float>(other_sine(sine, half_angle, made_for) / sine));
   }
 }
 
 bool PatchNormals::pixel(const Vec3f& normal, float& x, float& y) const {
-  if (normal.z() <= 0) return false;
-  float scale = static_cast<float>(size_) / static_cast<float>(2 * kPatchReach);
-  float reach = normal.head<2>().squaredNorm();
-  if (!ratio_.empty()) {
-    const float at = std::min(reach, 0.9999f) * kRatios;
-    const auto i = static_cast<std::size_t>(at);
-    const float ratio = ratio_[i] + (at - static_cast<float>(i)) * (ratio_[i + 1] - ratio_[i]);
-    scale *= ratio;
-    reach *= ratio * ratio;
-  }
-  if (reach > static_cast<float>(kReach)) return false;
+  if (normal.z() <= 0 || normal.head<2>().squaredNorm() > static_cast<float>(kReach)) return false;
+  const float scale = static_cast<float>(size_) / static_cast<float>(2 * kPatchReach);
   const float middle = 0.5f * static_cast<float>(size_) - 0.5f;
   x = middle + normal.x() * scale;
   y = middle - normal.y() * scale;
@@ -113,13 +111,13 @@ SurfacePicture::SurfacePicture(cv::Mat picture) : detail(std::move(picture)) {
 }
 
 BodyRotation register_frame(const PatchNormals& normals, const SurfacePicture& surface, const cv::Mat& frame,
-                            const Mat3& turned) {
-  // Sums of the six different entries of the normal matrix, the right side, and the correlation's parts.
-  std::array<double, 12> sums{};
+                            const Mat3& turned, int every) {
+  // The six different entries of the normal matrix, the right side, and the correlation's parts.
+  Sums all;
   const float* along_x = surface.along_x.ptr<float>(0);
   const float* along_y = surface.along_y.ptr<float>(0);
   const float* common = surface.detail.ptr<float>(0);
-  for_shown(normals, frame, turned, [&](int at, const Vec3f& normal, float seen) {
+  for_shown(normals, frame, turned, every, [&](int at, const Vec3f& normal, float seen) {
     const float dx = along_x[at];
     const float dy = along_y[at];
     const float residual = seen - common[at];
@@ -128,19 +126,15 @@ BodyRotation register_frame(const PatchNormals& normals, const SurfacePicture& s
     const float a = normal.z() * dy;
     const float b = -normal.z() * dx;
     const float c = normal.y() * dx - normal.x() * dy;
-    sums[0] += static_cast<double>(w * a * a);
-    sums[1] += static_cast<double>(w * a * b);
-    sums[2] += static_cast<double>(w * a * c);
-    sums[3] += static_cast<double>(w * b * b);
-    sums[4] += static_cast<double>(w * b * c);
-    sums[5] += static_cast<double>(w * c * c);
-    sums[6] += static_cast<double>(w * a * residual);
-    sums[7] += static_cast<double>(w * b * residual);
-    sums[8] += static_cast<double>(w * c * residual);
-    sums[9] += static_cast<double>(seen * common[at]);
-    sums[10] += static_cast<double>(seen * seen);
-    sums[11] += static_cast<double>(common[at] * common[at]);
+    const float wa = w * a;
+    const float wb = w * b;
+    const float wc = w * c;
+    Sums::Terms terms;
+    terms << wa * a, wa * b, wa * c, wb * b, wb * c, wc * c, wa * residual, wb * residual, wc * residual,
+        seen * common[at], seen * seen, common[at] * common[at];
+    all.add(terms);
   });
+  const Eigen::Array<double, 12, 1> sums = all.total();
   Mat3 normal_matrix;
   normal_matrix << sums[0], sums[1], sums[2], sums[1], sums[3], sums[4], sums[2], sums[4], sums[5];
   normal_matrix += Mat3::Identity() * 1e-9;
@@ -164,7 +158,7 @@ SurfacePicture common_surface(const PatchNormals& normals, const std::vector<cv:
     auto* sum = sums[slot].ptr<float>(0);
     auto* weight = weights[slot].ptr<float>(0);
     for (std::size_t f = slot; f < images.size(); f += kSlots) {
-      for_shown(normals, images[f], turn(axis, angles[f]), [&](int at, const Vec3f&, float seen) {
+      for_shown(normals, images[f], turn(axis, angles[f]), 1, [&](int at, const Vec3f&, float seen) {
         sum[at] += seen;
         weight[at] += 1;
       });
@@ -177,7 +171,7 @@ SurfacePicture common_surface(const PatchNormals& normals, const std::vector<cv:
 }
 
 void refine_turning(const PatchNormals& normals, const std::vector<cv::Mat>& images, bool refine_angles,
-                    Turning& turning) {
+                    int every, Turning& turning) {
   Vec3& axis = turning.axis;
   std::vector<double>& angles = turning.angles;
   const SurfacePicture surface = common_surface(normals, images, axis, angles);
@@ -187,7 +181,7 @@ void refine_turning(const PatchNormals& normals, const std::vector<cv::Mat>& ima
   std::vector<Vec3> rotation(n, Vec3::Zero());
   parallel_for(static_cast<int>(n), [&](int i) {
     const auto f = static_cast<std::size_t>(i);
-    const BodyRotation found = register_frame(normals, surface, images[f], turn(axis, angles[f]));
+    const BodyRotation found = register_frame(normals, surface, images[f], turn(axis, angles[f]), every);
     rotation[f] = found.rotation;
     turning.strength[f] = found.strength;
     turning.confidence[f] = found.correlation;

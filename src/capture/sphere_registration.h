@@ -16,10 +16,7 @@ std::vector<cv::Mat> moving_detail(std::span<const SurfacePatch> patches);
 /// The pixels of a patch's disc and the normals they show; and the way back.
 class PatchNormals {
  public:
-  /// Patches made for a sphere seen under `made_for` and really seen under `half_angle` (radians): along each
-  /// radius the pixels then show other normals than they were meant to.
-  PatchNormals(int size, double made_for, double half_angle);
-  explicit PatchNormals(int size) : PatchNormals(size, 0.1, 0.1) {}
+  explicit PatchNormals(int size);
 
   struct Entry {
     int index;
@@ -33,7 +30,6 @@ class PatchNormals {
  private:
   int size_ = 0;
   std::vector<Entry> entries_;
-  std::vector<float> ratio_;  // patch radius by normal's sine, by sine squared; empty: 1 everywhere
 };
 
 /// The rotation by which one frame differs from a picture of the surface.
@@ -51,18 +47,18 @@ struct SurfacePicture {
   cv::Mat along_y;  ///< and y, which points up, per unit of disc
 };
 
-/// One Lucas-Kanade step for a frame turned by about `turned`.
+/// One Lucas-Kanade step for a frame turned by about `turned`, from every `every`-th pixel.
 BodyRotation register_frame(const PatchNormals& normals, const SurfacePicture& surface, const cv::Mat& frame,
-                            const Mat3& turned);
+                            const Mat3& turned, int every = 1);
 
 /// What all frames have in common, seen at angle 0.
 SurfacePicture common_surface(const PatchNormals& normals, const std::vector<cv::Mat>& images,
                               const Vec3& axis, const std::vector<double>& angles);
 
-/// One round for all frames: their common surface, each one's rotation against it, then the axis (patch
-/// frame) that explains what the rotations share. Updates everything in `turning`, whose axis is in the
-/// patches' frame here.
+/// One round for all frames: their common surface, each one's rotation against it (register_frame), then the
+/// axis (patch frame) that explains what the rotations share. Updates everything in `turning`, whose axis is
+/// in the patches' frame here.
 void refine_turning(const PatchNormals& normals, const std::vector<cv::Mat>& images, bool refine_angles,
-                    Turning& turning);
+                    int every, Turning& turning);
 
 }  // namespace sateen

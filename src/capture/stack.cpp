@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "sateen/capture/stack.h"
 
-#include <cmath>
-
 #include "sateen/core/direction.h"
 
 namespace sateen {
@@ -12,12 +10,10 @@ AxisFrame::AxisFrame(const Vec3& axis) {
   y = axis.cross(x);
 }
 
-Vec2 body_point(const AxisFrame& axes, const Vec3& normal, double angle) {
+Vec2 body_point(const AxisFrame& axes, const Vec3& normal, const Vec2& turned) {
   const double x = normal.dot(axes.x);
   const double y = normal.dot(axes.y);
-  const double c = std::cos(angle);
-  const double s = std::sin(angle);
-  return {c * x + s * y, -s * x + c * y};
+  return {turned.x() * x + turned.y() * y, -turned.y() * x + turned.x() * y};
 }
 
 TangentAngle::TangentAngle(const SeenPoint& point, TableFrame frame, const AxisFrame& axes) {
@@ -26,9 +22,8 @@ TangentAngle::TangentAngle(const SeenPoint& point, TableFrame frame, const AxisF
   sine_ = (to_table * axes.y.cross(point.normal)).head<2>();
 }
 
-double TangentAngle::at(double first, double angle) const {
-  const double pole = first + kPi / 2 + angle;
-  const Vec2 tangent = std::cos(pole) * cosine_ + std::sin(pole) * sine_;
+double TangentAngle::at(const Vec2& pole) const {
+  const Vec2 tangent = pole.x() * cosine_ + pole.y() * sine_;
   return wrap(std::atan2(tangent.y(), tangent.x()) / (2 * kPi));
 }
 

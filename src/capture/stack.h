@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cmath>
 #include <span>
 #include <vector>
 
@@ -26,18 +27,25 @@ struct AxisFrame {
   explicit AxisFrame(const Vec3& axis);
 };
 
-/// Where on the turning body a normal lies: its (x, y) in the axis frame at angle 0, for a body turned by
-/// `angle`.
-Vec2 body_point(const AxisFrame& axes, const Vec3& normal, double angle);
+/// Cosine and sine: what one angle has for every texel is computed once.
+inline Vec2 direction_of(double angle) {
+  return {std::cos(angle), std::sin(angle)};
+}
+
+/// Where on the turning body a normal lies: its (x, y) in the axis frame at angle 0, for a body turned by the
+/// angle of which `turned` is the direction_of.
+Vec2 body_point(const AxisFrame& axes, const Vec3& normal, const Vec2& turned);
 
 /// The tangent's angle in the table as the body turns. The surface is prepared as section 5.1 asks: tangents
 /// run like the parallels of a globe whose pole lies across the turning axis. One instance serves one texel.
 class TangentAngle {
  public:
   TangentAngle(const SeenPoint& point, TableFrame frame, const AxisFrame& axes);
-  /// In turns, [0, 1); `first` (radians) is the picture-plane angle of the tangent in the middle of the disc
-  /// at angle 0.
-  double at(double first, double angle) const;
+  /// The tangent in the middle of the disc points to `first` (radians) at angle 0 in the picture plane: where
+  /// the globe's pole then is, as direction_of.
+  static Vec2 pole(double first, double angle) { return direction_of(first + kPi / 2 + angle); }
+  /// In turns, [0, 1), when the pole is at `pole`.
+  double at(const Vec2& pole) const;
 
  private:
   Vec2 cosine_;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <span>
 
@@ -41,7 +42,7 @@ float dark_floor(const RectifiedStack& stack) {
 }
 
 constexpr std::int8_t kUnknown = -128;
-constexpr std::size_t kMostNeighbours = 32;  // more than a median needs
+constexpr std::size_t kMostNeighbours = 16;  // a median needs no more
 constexpr int kBlock = 8;
 
 /// The middle values (the upper of two) of kBlock columns at once: a selection network, so that several
@@ -61,9 +62,23 @@ std::array<float, kBlock> middle_of_columns(std::span<const float* const> rows) 
   return v[rows.size() / 2];
 }
 
-/// Some fifty frames agree as well as all of them.
+/// Some forty frames agree as well as all of them.
 std::size_t frame_step(std::size_t frames) {
-  return std::max<std::size_t>(1, frames / 48);
+  return std::max<std::size_t>(1, frames / 32);
+}
+
+std::uint16_t bits_of(Half value) {
+  return std::bit_cast<std::uint16_t>(value);
+}
+
+/// Natural log of the light plus `dark`, of every half float there is by its bits.
+std::vector<float> log_light(float dark) {
+  std::vector<float> table(1 << 16);
+  for (std::size_t i = 0; i < table.size(); ++i) {
+    const auto light = static_cast<float>(std::bit_cast<Half>(static_cast<std::uint16_t>(i)));
+    table[i] = std::log(std::max(0.0f, light) + dark);
+  }
+  return table;
 }
 
 /// How much each rectified sample differs from the median of the angles around it, natural log, 100 a unit,
@@ -93,6 +108,9 @@ std::vector<std::int8_t> deviations(const RectifiedStack& stack, const SurfaceMa
   }
   const int blocks = (stack.size + kBlock - 1) / kBlock;
   const float darkest = std::log(3 * dark);
+  const std::vector<float> logarithm = log_light(dark);
+  std::vector<Vec2> turned;
+  for (const double angle : stack.angles) turned.push_back(direction_of(angle));
   parallel_for(stack.size, [&](int row) {
     // Of one block: log light [frame][channel][column]; usable [frame][column]: 0 unseen, 1 seen, 2 seen but
     // known to be a blemish.
@@ -114,13 +132,13 @@ std::vector<std::int8_t> deviations(const RectifiedStack& stack, const SurfaceMa
                          static_cast<std::size_t>(std::min(first + u, stack.size - 1));
           std::uint8_t& use = usable[f][column];
           use = first + u < stack.size && stack.points[i].visible && frame.weight[i] > 127 ? 1 : 0;
-          if (use != 0 && already.excludes(body_point(axes, stack.points[i].normal, stack.angles[f])))
+          if (use != 0 && already.size > 0 &&
+              already.excludes(body_point(axes, stack.points[i].normal, turned[f])))
             use = 2;
           any = any || use != 0;
           if (use != 1) whole[f] = 0;
           for (std::size_t c = 0; c < 3; ++c) {
-            light[f][c][column] =
-                use == 0 ? 0 : std::log(std::max(0.0f, static_cast<float>(frame.rgb[i * 3 + c])) + dark);
+            light[f][c][column] = use == 0 ? 0 : logarithm[bits_of(frame.rgb[i * 3 + c])];
           }
         }
       }
@@ -170,9 +188,13 @@ std::vector<float> body_deviation(const RectifiedStack& stack, const SurfaceMask
   const AxisFrame axes(stack.axis);
   std::vector<std::int32_t> texel_of(static_cast<std::size_t>(size) * static_cast<std::size_t>(size) * 4, -1);
   const int fine = 2 * size;
+  const Vec2 at_start = direction_of(0);
+  const std::size_t step = frame_step(frames);
+  std::vector<Vec2> turned;
+  for (const double angle : stack.angles) turned.push_back(direction_of(angle));
   for (std::size_t i = 0; i < texels; ++i) {
     if (!stack.points[i].visible || stack.points[i].normal.dot(stack.axis) <= 0) continue;
-    const Vec2 p = pixel_of_disc(body_point(axes, stack.points[i].normal, 0), fine);
+    const Vec2 p = pixel_of_disc(body_point(axes, stack.points[i].normal, at_start), fine);
     for (int v = -2; v <= 1; ++v) {
       for (int u = -2; u <= 1; ++u) {
         const int x = static_cast<int>(std::lround(p.x())) + u;
@@ -180,7 +202,8 @@ std::vector<float> body_deviation(const RectifiedStack& stack, const SurfaceMask
         if (x < 0 || y < 0 || x >= fine || y >= fine) continue;
         std::int32_t& slot = texel_of[static_cast<std::size_t>(y * fine + x)];
         const auto distance = [&](std::int32_t t) {
-          return (pixel_of_disc(body_point(axes, stack.points[static_cast<std::size_t>(t)].normal, 0), fine) -
+          return (pixel_of_disc(body_point(axes, stack.points[static_cast<std::size_t>(t)].normal, at_start),
+                                fine) -
                   Vec2(x + 0.5, y + 0.5))
               .squaredNorm();
         };
@@ -196,10 +219,10 @@ std::vector<float> body_deviation(const RectifiedStack& stack, const SurfaceMask
       const Vec2 disc = disc_of_pixel(x, y, size);
       if (disc.norm() >= 0.995) continue;
       for (auto& values : seen) values.clear();
-      for (std::size_t f = 0; f < frames; f += frame_step(frames)) {
-        const double c = std::cos(stack.angles[f]);
-        const double s = std::sin(stack.angles[f]);
-        const Vec2 p = pixel_of_disc(Vec2(c * disc.x() - s * disc.y(), s * disc.x() + c * disc.y()), fine);
+      for (std::size_t f = 0; f < frames; f += step) {
+        const Vec2& t = turned[f];
+        const Vec2 p = pixel_of_disc(
+            Vec2(t.x() * disc.x() - t.y() * disc.y(), t.y() * disc.x() + t.x() * disc.y()), fine);
         const auto at = static_cast<std::size_t>(std::min(fine - 1, static_cast<int>(p.y())) * fine +
                                                  std::min(fine - 1, static_cast<int>(p.x())));
         if (texel_of[at] < 0) continue;
@@ -211,12 +234,14 @@ std::vector<float> body_deviation(const RectifiedStack& stack, const SurfaceMask
       }
       float strongest = 0;
       for (auto& values : seen) {
-        if (values.size() * 4 * frame_step(frames) < frames || values.size() < 6) continue;
-        std::ranges::sort(values);
-        const float middle = values[values.size() / 2];
+        if (values.size() * 4 * step < frames || values.size() < 6) continue;
+        const auto quantile = [&](std::size_t quarters) {
+          const auto at = values.begin() + static_cast<std::ptrdiff_t>(values.size() * quarters / 4);
+          std::ranges::nth_element(values, at);
+          return *at;
+        };
         // The quantile on the side of 0 that a quarter of the frames may still fall short of.
-        const float agreed = middle < 0 ? std::min(0.0f, values[values.size() * 3 / 4])
-                                        : std::max(0.0f, values[values.size() / 4]);
+        const float agreed = quantile(2) < 0 ? std::min(0.0f, quantile(3)) : std::max(0.0f, quantile(1));
         if (std::abs(agreed) > std::abs(strongest)) strongest = agreed;
       }
       result[static_cast<std::size_t>(y * size + x)] = strongest;

@@ -20,6 +20,7 @@ namespace {
 constexpr double kPairTurn = radians(12);  // apart enough to show the axis, near enough to look alike
 constexpr int kPairs = 48;
 constexpr double kNoisy = 4;  // correlation, in those that chance reaches, below which smoothing pays
+constexpr std::array kRounds{2, 2, 1};       // of refinement: every how many pixels tell
 constexpr double kOffMiddle = radians(0.8);  // an axis nearer to the middle is found from there as well
 
 float linear_light(std::uint8_t code) {
@@ -72,9 +73,10 @@ Vec3 axis_of_neighbours(const std::vector<cv::Mat>& images, const PolarPictures&
     const SurfacePicture coarse(soft[still]);
     const SurfacePicture fine(images[still]);
     BodyRotation step;
+    // A first guess for refine_turning: a part of the pixels will do.
     for (int round = 0; round < 8; ++round) {
-      step = round < 5 ? register_frame(normals, coarse, soft[turned], rotation)
-                       : register_frame(normals, fine, images[turned], rotation);
+      step = round < 5 ? register_frame(normals, coarse, soft[turned], rotation, 4)
+                       : register_frame(normals, fine, images[turned], rotation, 2);
       const double size = step.rotation.norm();
       if (size > radians(4)) return;
       if (size > 0) {
@@ -107,7 +109,7 @@ Turning turning_about(const std::vector<cv::Mat>& images, const PolarTurning& st
   turning.axis = axis;
   turning.angles = start.angles;
   const PatchNormals normals(images[0].cols);
-  for (int round = 0; round < 3; ++round) refine_turning(normals, images, true, turning);
+  for (const int every : kRounds) refine_turning(normals, images, true, every, turning);
   return turning;
 }
 
@@ -163,7 +165,7 @@ SurfacePatch surface_patch(const GreyPicture& frame, const Camera& camera, const
       const float detail = (light.at<float>(y, x) - mean) / (mean + 0.01f);
       const float bounded = std::clamp(detail, -1.0f, 1.0f);
       patch.detail[static_cast<std::size_t>(y * size + x)] =
-          static_cast<std::int8_t>(std::lround(bounded * 127));
+          static_cast<std::int8_t>(bounded * 127 + (bounded < 0 ? -0.5f : 0.5f));
       squares += static_cast<double>(bounded * bounded);
       ++count;
     }
@@ -211,7 +213,7 @@ Turning find_axis(std::span<const SurfacePatch> patches, const Mat3& axes, std::
     Turning turning;
     turning.axis = axis;
     turning.angles = known;
-    for (int round = 0; round < 3; ++round) refine_turning(normals, images, refine_angles, turning);
+    for (const int every : kRounds) refine_turning(normals, images, refine_angles, every, turning);
     return turning;
   };
   Turning turning = from(Vec3::UnitZ());

@@ -51,14 +51,44 @@ struct Decoder {
   ~Decoder() { jpeg_destroy_decompress(&info); }
 };
 
-}  // namespace
+constexpr int kExifMarker = JPEG_APP0 + 1;
 
-Image decode_jpeg(const std::filesystem::path& path, std::span<const std::byte> bytes,
-                  const PixelRect& region, std::span<const float, 256> values) {
+/// A whole number of an EXIF block; 0 beyond its end.
+unsigned exif_number(std::span<const JOCTET> exif, std::size_t at, std::size_t bytes, bool big_endian) {
+  if (at + bytes > exif.size()) return 0;
+  unsigned value = 0;
+  for (std::size_t i = 0; i < bytes; ++i) value = value << 8 | exif[at + (big_endian ? i : bytes - 1 - i)];
+  return value;
+}
+
+/// 1 for a picture as it should be seen, to 8; 1 as well where the file does not say.
+unsigned exif_orientation(const jpeg_decompress_struct& info) {
+  constexpr std::size_t kTiff = 6;  // behind "Exif" and two zeros
+  for (auto* marker = info.marker_list; marker != nullptr; marker = marker->next) {
+    const std::span<const JOCTET> exif(marker->data, marker->data_length);
+    if (marker->marker != kExifMarker || exif.size() < kTiff + 8 || exif[0] != 'E') continue;
+    const bool big_endian = exif[kTiff] == 'M';
+    const std::size_t directory = kTiff + exif_number(exif, kTiff + 4, 4, big_endian);
+    const unsigned entries = exif_number(exif, directory, 2, big_endian);
+    for (std::size_t i = 0; i < entries; ++i) {
+      const std::size_t entry = directory + 2 + 12 * i;
+      constexpr unsigned kOrientation = 0x0112;
+      if (exif_number(exif, entry, 2, big_endian) != kOrientation) continue;
+      const unsigned orientation = exif_number(exif, entry + 8, 2, big_endian);
+      return orientation >= 1 && orientation <= 8 ? orientation : 1;
+    }
+  }
+  return 1;
+}
+
+/// Decodes row by row: `start(info)` looks at the header and may decline with false, which is returned then;
+/// `place(y)` says where row y goes, `done(y)` hears that it is there. libjpeg's errors jump out of here:
+/// what owns memory belongs to the caller.
+template <class Start, class Place, class Done>
+bool decode_rows(const std::filesystem::path& path, std::span<const std::byte> bytes, const Start& start,
+                 const Place& place, const Done& done) {
   ErrorManager errors{};
   Decoder decoder;
-  Image image;
-  std::vector<JSAMPLE> row;  // whatever owns memory stands before setjmp, so that a jump skips no destructor
   jpeg_decompress_struct& info = decoder.info;
   info.err = jpeg_std_error(&errors.base);
   errors.base.error_exit = leave;
@@ -67,24 +97,65 @@ Image decode_jpeg(const std::filesystem::path& path, std::span<const std::byte> 
     fail(path, "is truncated or corrupt: " + image_reason(errors.message));
   }
   jpeg_create_decompress(&info);
+  jpeg_save_markers(&info, kExifMarker, 0xffff);
   jpeg_mem_src(&info, reinterpret_cast<const unsigned char*>(bytes.data()),
                static_cast<unsigned long>(bytes.size()));
   jpeg_read_header(&info, TRUE);
+  if (!start(info)) return false;
   jpeg_start_decompress(&info);
-  image = Image(region.width, region.height, info.output_components);
-  const auto channels = static_cast<std::size_t>(info.output_components);
-  row.resize(info.output_width * channels);
   while (info.output_scanline < info.output_height) {
-    const int y = static_cast<int>(info.output_scanline) - region.y;
-    JSAMPROW rows = row.data();
-    jpeg_read_scanlines(&info, &rows, 1);
-    if (y < 0 || y >= region.height) continue;
+    const auto y = static_cast<int>(info.output_scanline);
+    JSAMPROW row = place(y);
+    jpeg_read_scanlines(&info, &row, 1);
+    done(y);
+  }
+  jpeg_finish_decompress(&info);
+  return true;
+}
+
+}  // namespace
+
+Image decode_jpeg(const std::filesystem::path& path, std::span<const std::byte> bytes,
+                  const PixelRect& region, std::span<const float, 256> values) {
+  Image image;
+  std::vector<JSAMPLE> row;
+  std::size_t channels = 0;
+  const auto start = [&](jpeg_decompress_struct& info) {
+    jpeg_calc_output_dimensions(&info);
+    channels = static_cast<std::size_t>(info.output_components);
+    image = Image(region.width, region.height, info.output_components);
+    row.resize(info.output_width * channels);
+    return true;
+  };
+  const auto done = [&](int at) {
+    const int y = at - region.y;
+    if (y < 0 || y >= region.height) return;
     const JSAMPLE* in = row.data() + static_cast<std::size_t>(region.x) * channels;
     std::transform(in, in + static_cast<std::size_t>(region.width) * channels, image.pixel(0, y).data(),
                    [&](JSAMPLE v) { return values[v]; });
-  }
-  jpeg_finish_decompress(&info);
+  };
+  decode_rows(
+      path, bytes, start, [&](int) { return row.data(); }, done);
   return image;
+}
+
+bool decode_plain_jpeg(const std::filesystem::path& path, std::span<const std::byte> bytes,
+                       Picture8& picture) {
+  if (bytes.size() < 2 || bytes[0] != std::byte{0xff} || bytes[1] != std::byte{0xd8}) return false;
+  std::size_t stride = 0;
+  const auto start = [&](jpeg_decompress_struct& info) {
+    const bool colours = info.jpeg_color_space == JCS_YCbCr || info.jpeg_color_space == JCS_RGB ||
+                         info.jpeg_color_space == JCS_GRAYSCALE;
+    if (!colours || exif_orientation(info) != 1) return false;
+    info.out_color_space = JCS_RGB;
+    picture.width = static_cast<int>(info.image_width);
+    picture.height = static_cast<int>(info.image_height);
+    stride = static_cast<std::size_t>(picture.width) * 3;
+    picture.rgb.resize(stride * info.image_height);
+    return true;
+  };
+  const auto place = [&](int y) { return picture.rgb.data() + static_cast<std::size_t>(y) * stride; };
+  return decode_rows(path, bytes, start, place, [](int) {});
 }
 
 }  // namespace sateen

@@ -6,6 +6,7 @@
 #include <span>
 
 #include "sateen/core/image.h"
+#include "sateen/io/picture8.h"
 
 namespace sateen {
 
@@ -15,5 +16,11 @@ namespace sateen {
 /// Padding between the picture and its end marker is harmless.
 Image decode_jpeg(const std::filesystem::path& path, std::span<const std::byte> bytes,
                   const PixelRect& region, std::span<const float, 256> values);
+
+/// The grey or RGB JPEG file `bytes` as 8-bit RGB, in the memory `picture` has already where that is enough.
+/// False for what takes more than decoding: no JPEG at all, other colours (CMYK), an EXIF orientation. Throws
+/// as decode_jpeg does.
+bool decode_plain_jpeg(const std::filesystem::path& path, std::span<const std::byte> bytes,
+                       Picture8& picture);
 
 }  // namespace sateen

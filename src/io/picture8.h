@@ -19,4 +19,8 @@ struct Picture8 {
 /// alpha is dropped. Throws Error naming the file when it is missing, truncated, or no picture.
 Picture8 read_picture8(const std::filesystem::path& path);
 
+/// The same into memory that is there: reading pictures of one size into the same `picture` again and again
+/// saves the system fetching and clearing its pages each time.
+void read_picture8(const std::filesystem::path& path, Picture8& picture);
+
 }  // namespace sateen

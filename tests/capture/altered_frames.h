@@ -23,8 +23,11 @@ inline Image light_of(const Picture8& picture) {
 inline void multiply_sphere(Image& light, const Camera& camera, const SphereView& sphere,
                             const std::function<Vec3(const Vec3& normal)>& factor) {
   constexpr int kFine = 3;
+  const Vec2 centre = sphere.centre_pixel(camera);
+  const double reach = 1.2 * sphere.radius_pixel(camera) + 2;  // perspective stretches outlines
   for (int y = 0; y < light.height; ++y) {
     for (int x = 0; x < light.width; ++x) {
+      if ((Vec2(x, y) - centre).norm() > reach) continue;
       Vec3 sum(0, 0, 0);
       for (int i = 0; i < kFine * kFine; ++i) {
         Vec3 normal;

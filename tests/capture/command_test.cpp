@@ -5,8 +5,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
-#include <opencv2/imgproc.hpp>
-#include <opencv2/videoio.hpp>
 
 #include "capture/simulated_grbl.h"
 #include "capture/simulator.h"
@@ -23,30 +21,6 @@ using test::SimulatedGrbl;
 using test::Simulation;
 using testing::HasSubstr;
 
-Simulation small() {
-  Simulation s;
-  s.width = 400;
-  s.height = 240;
-  s.focal = 780;
-  s.centre = {215, 112};
-  s.radius = 75;
-  s.frames = 36;
-  s.samples = 1;
-  return s;
-}
-
-/// Frames [first, last) as a video.
-void record(const Simulation& s, const std::filesystem::path& path, int first, int last) {
-  cv::VideoWriter writer(path.string(), cv::VideoWriter::fourcc('M', 'J', 'P', 'G'), 24, {s.width, s.height});
-  writer.set(cv::VIDEOWRITER_PROP_QUALITY, 97);
-  for (int i = first; i < last; ++i) {
-    Picture8 picture = s.render(i);
-    cv::Mat bgr;
-    cv::cvtColor(cv::Mat(s.height, s.width, CV_8UC3, picture.rgb.data()), bgr, cv::COLOR_RGB2BGR);
-    writer.write(bgr);
-  }
-}
-
 std::string lens_and_size(const Simulation& s) {
   return fmt::format(" --fov {:.4f} --size 48 --slices 24", degrees(2 * std::atan(s.width / 2.0 / s.focal)));
 }
@@ -56,11 +30,11 @@ nlohmann::json report_in(const std::filesystem::path& folder) {
 }
 
 TEST(CaptureCommand, ALiveCaptureGoesOnAfterAnInterruptionAndMakesTheTable) {
-  const Simulation s = small();
+  const Simulation s = test::small_simulation();
   const test::TemporaryFolder folder;
   SimulatedGrbl grbl;
-  record(s, folder / "before.avi", 0, 20);
-  record(s, folder / "after.avi", 20, 36);
+  test::write_video(s, folder / "before.avi", 0, 20);
+  test::write_video(s, folder / "after.avi", 20, 36);
   const auto shoot = [&](const std::string& camera) {
     return run_program(fmt::format(
         "capture live --camera {} --frames 36 --stage grbl:{} --settle 0 --folder {} -o {} --report {} "
@@ -89,9 +63,9 @@ TEST(CaptureCommand, ALiveCaptureGoesOnAfterAnInterruptionAndMakesTheTable) {
 }
 
 TEST(CaptureCommand, AHandIsToldHowFarToTurn) {
-  const Simulation s = small();
+  const Simulation s = test::small_simulation();
   const test::TemporaryFolder folder;
-  record(s, folder / "turn.avi", 0, 12);
+  test::write_video(s, folder / "turn.avi", 0, 12);
   write_text(folder / "keys", std::string(12, '\n'));
   const std::string command =
       fmt::format("capture live --camera {} --frames 12 --stage manual --folder {} < {}",

@@ -38,19 +38,24 @@ void judge_seam(const CaptureResult& result, const Simulation& truth, CaptureErr
 CaptureErrors judge(const CaptureResult& result, const Simulation& truth) {
   CaptureErrors errors;
   double offset = 0;
+  double gain = 0;
   double n = 0;
   for (int i = 0; i < truth.frames; ++i) {
     const CaptureFrame& frame = result.frames[static_cast<std::size_t>(i)];
     if (!frame.dropped.empty()) continue;
     offset += std::remainder(frame.turned - truth.angle(i), 2 * kPi);
+    gain += std::log(frame.gain.y() / truth.gain(i).y());
     ++n;
   }
   offset /= n;
+  gain /= n;
   for (int i = 0; i < truth.frames; ++i) {
     const CaptureFrame& frame = result.frames[static_cast<std::size_t>(i)];
     if (!frame.dropped.empty()) continue;
     errors.centre += (frame.centre - truth.sphere_of(i).centre_pixel(truth.camera())).squaredNorm() / n;
     errors.angle += std::pow(degrees(std::remainder(frame.turned - truth.angle(i) - offset, 2 * kPi)), 2) / n;
+    const double exposure = frame.gain.y() / truth.gain(i).y() / std::exp(gain);
+    errors.exposure = std::max(errors.exposure, std::abs(exposure - 1));
   }
   errors.centre = std::sqrt(errors.centre);
   errors.angle = std::sqrt(errors.angle);
@@ -68,6 +73,13 @@ CaptureOptions informed_options(const Simulation& truth, bool lens) {
   if (lens) options.fov = 2 * std::atan(truth.width / 2.0 / truth.focal);
   options.zero_given = true;
   options.zero_angle = radians(truth.first_angle);
+  return options;
+}
+
+CaptureOptions small_options(const Simulation& truth) {
+  CaptureOptions options = informed_options(truth);
+  options.size = 48;
+  options.slices = 24;
   return options;
 }
 

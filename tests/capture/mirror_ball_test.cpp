@@ -31,18 +31,6 @@ Vec3 room(const Vec3& direction) {
          Vec3(0.1, 0.3, 0.8) * lamp({-0.6, 0.1, -0.5}, 0.2);
 }
 
-Simulation small() {
-  Simulation s;
-  s.width = 400;
-  s.height = 240;
-  s.focal = 780;
-  s.centre = {215, 112};
-  s.radius = 75;
-  s.frames = 24;
-  s.samples = 1;
-  return s;
-}
-
 /// The stand with a chrome ball in place of the sphere, worked out ray by ray.
 void write_ball(const Simulation& s, const SphereView& ball, const std::filesystem::path& path) {
   Simulation empty = s;
@@ -69,7 +57,7 @@ void write_ball(const Simulation& s, const SphereView& ball, const std::filesyst
 }
 
 TEST(CaptureMirrorBallCommand, WritesTheRoomBesideTheTable) {
-  const Simulation s = small();
+  const Simulation s = test::small_simulation(24);
   const test::TemporaryFolder folder;
   std::filesystem::create_directory(folder / "shots");
   s.write(folder / "shots");
@@ -103,7 +91,7 @@ TEST(CaptureMirrorBallCommand, WritesTheRoomBesideTheTable) {
 }
 
 TEST(CaptureMirrorBall, APictureWithoutABallIsRefused) {
-  Simulation s = small();
+  Simulation s = test::small_simulation(24);
   s.frames = 12;
   const test::TemporaryFolder folder;
   std::filesystem::create_directory(folder / "shots");

@@ -33,8 +33,8 @@ void row(const char* name, const std::function<void(test::Simulation&, bool& len
                  100 * errors.seam_precision);
     }
     if (!lens) {
-      fmt::print(" focal {:.0f} of {:.0f} px, {}", result.camera.focal.x(), s.focal,
-                 result.camera.focal_source);
+      fmt::print(" focal {:.0f} ({:.0f} to {:.0f}) of {:.0f} px, {}", result.camera.focal.x(),
+                 result.focal->low, result.focal->high, s.focal, result.camera.focal_source);
     }
     fmt::print("\n");
     if (verbose) {
@@ -121,5 +121,20 @@ int main(int argc, char** argv) {
     s.shaken = {9, 30};
     s.repeated = {20, 21, 40};
   });
-  row("lens unknown (60 degrees assumed)", [](S&, bool& known) { known = false; });
+  row("lens unknown, sphere near the middle", [](S&, bool& known) { known = false; });
+  row("lens unknown (71 degrees), sphere beside the middle", [](S& s, bool& known) {
+    known = false;
+    s.focal = 450;
+    s.centre = {450, 220};
+  });
+  row("lens unknown (54 degrees), sphere beside the middle", [](S& s, bool& known) {
+    known = false;
+    s.focal = 630;
+    s.centre = {480, 150};
+  });
+  row("lens unknown (39 degrees), sphere beside the middle", [](S& s, bool& known) {
+    known = false;
+    s.focal = 900;
+    s.centre = {490, 220};
+  });
 }

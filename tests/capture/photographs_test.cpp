@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "capture/altered_frames.h"
+#include "capture/judge.h"
 #include "capture/simulated_exif.h"
 #include "capture/simulator.h"
 #include "sateen/capture/capture.h"
@@ -21,31 +22,9 @@ namespace {
 using test::Simulation;
 using test::TemporaryFolder;
 
-Simulation small() {
-  Simulation s;
-  s.width = 400;
-  s.height = 240;
-  s.focal = 780;
-  s.centre = {215, 112};
-  s.radius = 75;
-  s.frames = 36;
-  s.samples = 1;
-  return s;
-}
-
-CaptureOptions options_for(const Simulation& s) {
-  CaptureOptions options;
-  options.size = 48;
-  options.slices = 24;
-  options.fov = 2 * std::atan(s.width / 2.0 / s.focal);
-  options.zero_given = true;
-  options.zero_angle = radians(s.first_angle);
-  return options;
-}
-
 TEST(CapturePhotographs, BracketedExposuresKeepTheHighlights) {
   constexpr double kLonger = 3;
-  Simulation dark = small();
+  Simulation dark = test::small_simulation();
   dark.exposure = 0.6;
   Simulation bright = dark;
   bright.exposure = kLonger * dark.exposure;
@@ -64,7 +43,7 @@ TEST(CapturePhotographs, BracketedExposuresKeepTheHighlights) {
     test::put_exif(file(both, 2 * i + 1), test::exposure_time_exif(1, 100));
     write_image(file(long_only, i), longer);
   }
-  const CaptureOptions options = options_for(dark);
+  const CaptureOptions options = test::small_options(dark);
   const CaptureResult merged = build_capture({both.path()}, options);
   EXPECT_EQ(merged.frames.size(), 36);
   EXPECT_LT(merged.clipped_share, 0.001);
@@ -76,7 +55,7 @@ TEST(CapturePhotographs, BracketedExposuresKeepTheHighlights) {
 }
 
 TEST(CapturePhotographs, FlickerWithinAFrameIsTold) {
-  const Simulation s = small();
+  const Simulation s = test::small_simulation();
   const TemporaryFolder folder;
   for (int i = 0; i < s.frames; ++i) {
     // A lamp at twice the mains frequency, read off row by row.
@@ -87,12 +66,12 @@ TEST(CapturePhotographs, FlickerWithinAFrameIsTold) {
     }
     write_image(folder / fmt::format("shot_{:03}.jpg", i), light);
   }
-  const CaptureResult result = build_capture({folder.path()}, options_for(s));
+  const CaptureResult result = build_capture({folder.path()}, test::small_options(s));
   EXPECT_THAT(result.warnings, testing::Contains(testing::HasSubstr("flicker")));
 }
 
 TEST(CapturePhotographs, UnreadableExifIsAsGoodAsNone) {
-  const Simulation s = small();
+  const Simulation s = test::small_simulation();
   const TemporaryFolder folder;
   const std::string good = test::exposure_time_exif(1, 100);
   std::string astray = good;  // the offset of its directory points behind the file
@@ -111,7 +90,7 @@ TEST(CapturePhotographs, UnreadableExifIsAsGoodAsNone) {
     write_image(file, test::light_of(s.render(i)));
     test::put_exif(file, blocks[static_cast<std::size_t>(i) % blocks.size()]);
   }
-  CaptureOptions options = options_for(s);
+  CaptureOptions options = test::small_options(s);
   options.fov = 0;  // so that the notes are asked for the lens
   const CaptureResult result = build_capture({folder.path()}, options);
   EXPECT_EQ(result.frames.size(), 36);

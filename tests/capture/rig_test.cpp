@@ -140,28 +140,5 @@ TEST(CaptureRig, ADamagedPhotographIsNamed) {
   }
 }
 
-TEST(CaptureLens, PatchesForAnotherLensShowTheNormalsThatRaysMeet) {
-  const double made_for = radians(8);
-  const double real = radians(3);
-  const PatchNormals normals(64, made_for, real);
-  // Two cameras that see the same outline of 100 pixels radius in the middle of their pictures.
-  const Camera near = Camera::pinhole(400, 400, 100 / std::tan(made_for));
-  const Camera far = Camera::pinhole(400, 400, 100 / std::tan(real));
-  const SphereView near_sphere = sphere_at(near, {200, 200}, 100);
-  const SphereView far_sphere = sphere_at(far, {200, 200}, 100);
-  for (const PatchNormals::Entry& entry : normals.entries()) {
-    const Vec2 disc = kPatchReach * disc_of_pixel(entry.index % 64, entry.index / 64, 64);
-    const Vec3 meant(disc.x(), disc.y(), std::sqrt(1 - disc.squaredNorm()));
-    Vec3 met;
-    ASSERT_TRUE(normal_at_pixel(far, far_sphere, near.project(near_sphere.centre + meant), met));
-    EXPECT_LT((met - entry.normal.cast<double>()).norm(), 1e-4);
-    float x = 0;
-    float y = 0;
-    ASSERT_TRUE(normals.pixel(entry.normal * 0.9999f, x, y));
-    EXPECT_NEAR(x, entry.index % 64, 0.05);
-    EXPECT_NEAR(y, entry.index / 64, 0.05);
-  }
-}
-
 }  // namespace
 }  // namespace sateen

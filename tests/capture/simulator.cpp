@@ -135,13 +135,22 @@ Picture8 Simulation::render(int frame) const {
   const Vec2 seen_centre = ball.centre_pixel(lens);
   const Vec2 twin_centre = twin.centre_pixel(lens);
 
+  // Perspective makes the outline an ellipse: it lies between these distances from the centre.
+  double inner = radius;
+  double outer = radius;
+  for (int i = 0; i < 32; ++i) {
+    const double reach = (ball.outline_pixel(lens, 2 * kPi * i / 32) - seen_centre).norm();
+    inner = std::min(inner, reach);
+    outer = std::max(outer, reach);
+  }
+
   const auto light_at = [&](const Vec2& at) -> Vec3 {
     const Vec2 pixel = at - move;
     Vec3 n;
     if (covered && std::abs(pixel.x() - centre.x()) < 7 && pixel.y() > centre.y() + 0.5 * radius) {
       return {0.4, 0.42, 0.4};
     }
-    const bool near_ball = sphere && (pixel - seen_centre).norm() < 1.2 * radius;
+    const bool near_ball = sphere && (pixel - seen_centre).norm() < outer + 3;
     const bool near_twin = second_sphere && (pixel - twin_centre).norm() < radius;
     if ((near_ball && normal_at_pixel(lens, ball, pixel, n)) ||
         (near_twin && normal_at_pixel(lens, twin, pixel, n))) {
@@ -203,8 +212,8 @@ Picture8 Simulation::render(int frame) const {
       const Vec2 p(x + 0.5, y + 0.5);
       const double from_centre = (p - move - seen_centre).norm();
       const bool fine =
-          from_centre < 1.06 * radius || (second_sphere && (p - move - twin_centre).norm() < radius);
-      const int n = fine ? (std::abs(from_centre - radius) < 3 ? 4 : samples) : 1;
+          from_centre < outer + 3 || (second_sphere && (p - move - twin_centre).norm() < radius);
+      const int n = fine ? (from_centre > inner - 3 ? 4 : samples) : 1;
       if (!fine) {
         image.at<cv::Vec3f>(y, x) = still(x, y);
         continue;
@@ -255,10 +264,26 @@ void Simulation::write(const std::filesystem::path& folder) const {
   }
 }
 
+Simulation small_simulation(int frames) {
+  Simulation s;
+  s.width = 400;
+  s.height = 240;
+  s.focal = 780;
+  s.centre = {215, 112};
+  s.radius = 75;
+  s.frames = frames;
+  s.samples = 1;
+  return s;
+}
+
 void write_video(const Simulation& s, const std::filesystem::path& path) {
+  write_video(s, path, 0, s.frames);
+}
+
+void write_video(const Simulation& s, const std::filesystem::path& path, int first, int end) {
   cv::VideoWriter writer(path.string(), cv::VideoWriter::fourcc('M', 'J', 'P', 'G'), 24, {s.width, s.height});
   writer.set(cv::VIDEOWRITER_PROP_QUALITY, 97);
-  for (int i = 0; i < s.frames; ++i) {
+  for (int i = first; i < end; ++i) {
     Picture8 picture = s.render(i);
     cv::Mat bgr;
     cv::cvtColor(cv::Mat(s.height, s.width, CV_8UC3, picture.rgb.data()), bgr, cv::COLOR_RGB2BGR);

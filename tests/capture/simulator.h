@@ -63,8 +63,12 @@ struct Simulation {
   Vec3 material(const Vec3& normal, const Vec3& tangent) const;
 };
 
-/// The frames as a Motion JPEG video.
+/// Small and quick, for what does not depend on precision.
+Simulation small_simulation(int frames = 36);
+
+/// The frames, or only those in [first, end), as a Motion JPEG video.
 void write_video(const Simulation& simulation, const std::filesystem::path& path);
+void write_video(const Simulation& simulation, const std::filesystem::path& path, int first, int end);
 
 /// A picture of a chessboard with `columns` x `rows` inner corners, squares of side 1, turned and then moved
 /// in view space.

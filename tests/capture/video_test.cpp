@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 #include <opencv2/videoio.hpp>
 
+#include "capture/judge.h"
 #include "capture/simulator.h"
 #include "sateen/capture/capture.h"
 #include "sateen/core/error.h"
@@ -18,28 +19,6 @@ namespace {
 
 using test::Simulation;
 using test::TemporaryFolder;
-
-Simulation small() {
-  Simulation s;
-  s.width = 400;
-  s.height = 240;
-  s.focal = 780;
-  s.centre = {215, 112};
-  s.radius = 75;
-  s.frames = 40;
-  s.samples = 1;
-  return s;
-}
-
-CaptureOptions options_for(const Simulation& s) {
-  CaptureOptions options;
-  options.size = 48;
-  options.slices = 24;
-  options.fov = 2 * std::atan(s.width / 2.0 / s.focal);
-  options.zero_given = true;
-  options.zero_angle = 0.4;
-  return options;
-}
 
 /// Overwrites four bytes of the AVI's stream header, `offset` behind its start.
 void patch_stream_header(const std::filesystem::path& avi, std::size_t offset, std::uint32_t value) {
@@ -55,31 +34,31 @@ constexpr std::size_t kRate = 24;
 constexpr std::size_t kLength = 32;
 
 TEST(CaptureVideo, UsesWhatThereIsOfAPromiseTooLarge) {
-  const Simulation s = small();
+  const Simulation s = test::small_simulation(40);
   const TemporaryFolder folder;
   test::write_video(s, folder / "turn.avi");
   patch_stream_header(folder / "turn.avi", kLength, 48);
-  const CaptureResult result = build_capture({folder / "turn.avi"}, options_for(s));
+  const CaptureResult result = build_capture({folder / "turn.avi"}, test::small_options(s));
   EXPECT_EQ(result.frames.size(), 40);
   EXPECT_TRUE(result.equal_steps);
   EXPECT_THAT(result.warnings, testing::Contains(testing::HasSubstr("promises 48 frames, but only 40")));
 }
 
 TEST(CaptureVideo, NeedsNoFrameRate) {
-  const Simulation s = small();
+  const Simulation s = test::small_simulation(40);
   const TemporaryFolder folder;
   test::write_video(s, folder / "turn.avi");
   patch_stream_header(folder / "turn.avi", kScale, 0);
   patch_stream_header(folder / "turn.avi", kRate, 0);
-  EXPECT_EQ(build_capture({folder / "turn.avi"}, options_for(s)).frames.size(), 40);
+  EXPECT_EQ(build_capture({folder / "turn.avi"}, test::small_options(s)).frames.size(), 40);
 }
 
 TEST(CaptureVideo, UsesEveryNthFrameOfALongOne) {
-  Simulation s = small();
+  Simulation s = test::small_simulation(40);
   s.frames = 60;
   const TemporaryFolder folder;
   test::write_video(s, folder / "turn.avi");
-  CaptureOptions options = options_for(s);
+  CaptureOptions options = test::small_options(s);
   options.source.max_frames = 25;
   options.angle_source = AngleSource::given;
   for (int i = 0; i < s.frames; ++i) options.angles.push_back(s.angle(i));
@@ -90,7 +69,7 @@ TEST(CaptureVideo, UsesEveryNthFrameOfALongOne) {
 }
 
 TEST(CaptureVideo, TellsOfAMissingIndex) {
-  const Simulation s = small();
+  const Simulation s = test::small_simulation(40);
   const TemporaryFolder folder;
   const auto path = folder / "turn.mp4";
   {
@@ -103,7 +82,7 @@ TEST(CaptureVideo, TellsOfAMissingIndex) {
   bytes.resize(bytes.size() / 2);
   write_bytes(path, bytes);
   try {
-    build_capture({path}, options_for(s));
+    build_capture({path}, test::small_options(s));
     FAIL();
   } catch (const Error& error) {
     EXPECT_THAT(error.what(), testing::AllOf(testing::HasSubstr("turn.mp4"), testing::HasSubstr("index")));
