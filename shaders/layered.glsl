@@ -5,6 +5,9 @@
 
 // Layers a material does not have are left out at compile time: layered_no_*.glsl and layered_slides.glsl in front of this
 // file define the switches otherwise.
+#ifndef LAYERED_FIBRES
+#define LAYERED_FIBRES true
+#endif
 #ifndef LAYERED_REFLECTION
 #define LAYERED_REFLECTION true
 #endif
@@ -16,6 +19,9 @@
 #endif
 #ifndef LAYERED_FUZZ_PHASE
 #define LAYERED_FUZZ_PHASE FUZZ_SGGX
+#endif
+#ifndef LAYERED_FUZZ_DOWN
+#define LAYERED_FUZZ_DOWN true
 #endif
 #ifndef LAYERED_FUZZ_SMOOTHING
 #define LAYERED_FUZZ_SMOOTHING false
@@ -29,7 +35,6 @@
 
 uniform vec3 base_colour;
 uniform vec3 base_bands[3];  // Legendre coefficients of what a diffuse base receives, under the fuzz if there is one
-uniform bool base_fibres;
 uniform vec2 base_lobe;  // the fibres' light is (|l across the fibre| + x n.l) y
 uniform vec3 base_moments;  // of that over the hemisphere: xx, yy, zz
 uniform float base_moment_z;
@@ -51,8 +56,6 @@ uniform vec3 fuzz_fibre;
 uniform float fuzz_smoothing;  // of the layer's normal, from the shading normal to the mesh's
 uniform vec2 fuzz_axis;
 uniform vec3 fuzz_colour;
-uniform vec4 fuzz_visibility;
-uniform float fuzz_down_weight;  // 0 leaves P_s out
 uniform vec3 fuzz_down_low;
 uniform vec3 fuzz_down_high;
 uniform vec2 fuzz_table_along;         // fibre_table.glsl
@@ -60,6 +63,8 @@ uniform sampler2D fuzz_down_table;     // P_s of a light
 uniform sampler2D fuzz_ambient_table;  // where a view's fuzz looks: x, y over v.y, z; w: its response over G~
 
 const float LAYERED_LOWEST_VIEW = 1e-3;
+const vec2 FUZZ_DOWN_TEXELS = vec2(65.0, 17.0);  // of the tables, as in src/brdf/fuzz_table.h
+const vec2 FUZZ_AMBIENT_TEXELS = vec2(129.0, 33.0);
 const float SIMPLE_DENSITY = 0.5;
 const float SIMPLE_ALPHA = 0.95;
 const float SIMPLE_COLOUR = 5.0;
@@ -81,6 +86,7 @@ float layered_albedo(vec3 w) {
 struct Layer {
   mat3 frame;
   vec3 view;
+  float cosine;   // between the view and the fibre
   float depth;    // d / v.n
   float leaving;  // P_e
 };
@@ -98,12 +104,13 @@ vec3 layered_view(vec3 view, mat3 frame) {
 }
 
 Layer layered_layer(Surface s, mat3 frame, vec3 view) {
-  Layer layer = Layer(frame, view, 0.0, 1.0);
+  Layer layer = Layer(frame, view, 0.0, 0.0, 1.0);
   if (LAYERED_FUZZ && LAYERED_FUZZ_SMOOTHING) {
     layer.frame = layered_frame(s, normalize(mix(s.normal, s.mesh_normal, fuzz_smoothing)));
     layer.view = layered_view(s.view, layer.frame);
   }
   if (LAYERED_FUZZ) {
+    layer.cosine = dot(layer.view, fuzz_fibre);
     layer.depth = fuzz_density / layer.view.z;
     layer.leaving = exp(-layer.depth);
   }
@@ -115,21 +122,23 @@ vec3 layered_into(Layer layer, mat3 frame, vec3 w) {
   return LAYERED_FUZZ_SMOOTHING ? (frame * w) * layer.frame : w;
 }
 
-float layered_scattered_down(vec3 light) {
-  if (LAYERED_FUZZ_SLIDES) return fuzz_scattered_down_fit(fuzz_down_low, fuzz_down_high, light.z, dot(light, fuzz_fibre));
-  return fibre_table(fuzz_down_table, fuzz_fibre, fuzz_table_along, light).x;
+// P_s of a light, by its cosine to the fibre.
+float layered_scattered_down(vec3 light, float cosine) {
+  if (LAYERED_FUZZ_SLIDES) return fuzz_scattered_down_fit(fuzz_down_low, fuzz_down_high, light.z, cosine);
+  return fibre_table(fuzz_down_table, FUZZ_DOWN_TEXELS, fuzz_fibre, fuzz_table_along, light, cosine).x;
 }
 
 // What of the light reaches the base: P_p + c (1 - P_p) P_s.
-vec3 layered_entering(vec3 light, float passing) {
-  float down = fuzz_down_weight > 0.0 ? layered_scattered_down(light) : 0.0;
-  return passing + fuzz_colour * ((1.0 - passing) * down);
+vec3 layered_entering(vec3 light, float cosine, float passing) {
+  if (!LAYERED_FUZZ_DOWN) return vec3(passing);
+  return passing + fuzz_colour * ((1.0 - passing) * layered_scattered_down(light, cosine));
 }
 
 vec3 layered_simple_fuzz(vec3 light, vec3 view) {
   float x = fuzz_wrapped_cosine(light.z);
   if (x <= 0.0) return vec3(0.0);
-  float phase = fuzz_phase(FUZZ_SGGX, SIMPLE_ALPHA, vec2(0.0), vec3(0.0, 0.0, 1.0), light, view);
+  vec3 across = light + view;
+  float phase = fuzz_phase(FUZZ_SGGX, SIMPLE_ALPHA, vec2(0.0), light.z, view.z, dot(across, across));
   float scattered = 1.0 - exp(-SIMPLE_DENSITY * (x + view.z) / (x * view.z));
   return base_colour * (SIMPLE_COLOUR * phase * scattered * x / (x + view.z));
 }
@@ -138,7 +147,7 @@ vec3 layered_simple_fuzz(vec3 light, vec3 view) {
 vec3 layered_direct(mat3 frame, vec3 light, vec3 view, Layer layer) {
   vec3 base = vec3(0.0);
   if (light.z > 0.0) {
-    float diffuse = base_fibres ? fibre_lobe(layered_turned(light, base_axis), base_lobe) : light.z * 0.3183098861837907;
+    float diffuse = LAYERED_FIBRES ? fibre_lobe(layered_turned(light, base_axis), base_lobe) : light.z * 0.3183098861837907;
     base = base_colour * diffuse;
   }
   if (LAYERED_SIMPLE_FUZZ) base = mix(base, layered_simple_fuzz(light, view), simple_fuzziness);
@@ -151,14 +160,15 @@ vec3 layered_direct(mat3 frame, vec3 light, vec3 view, Layer layer) {
   }
   if (!LAYERED_FUZZ) return base;
   vec3 u = layered_into(layer, frame, light);
-  if (u.z <= 0.0) return vec3(0.0);
+  if (LAYERED_FUZZ_SMOOTHING && u.z <= 0.0) return vec3(0.0);
   float depth = fuzz_density / u.z;
   float passing = exp(-depth);
   // The exponent of the layer is that of both crossings: exp(-d (1/u.n + 1/v.n)) = P_p P_e.
   float scattered = fuzz_scattered(depth + layer.depth, passing * layer.leaving);
-  float phase = fuzz_phase(LAYERED_FUZZ_PHASE, fuzz_alpha, fuzz_schlick, fuzz_fibre, u, layer.view);
-  return base * (layered_entering(u, passing) * layer.leaving) +
-         fuzz_colour * (phase * scattered * u.z / (u.z + layer.view.z));
+  float cosine = dot(u, fuzz_fibre);
+  vec3 sum = u + layer.view;
+  float phase = fuzz_phase(LAYERED_FUZZ_PHASE, fuzz_alpha, fuzz_schlick, cosine, layer.cosine, dot(sum, sum));
+  return base * (layered_entering(u, cosine, passing) * layer.leaving) + fuzz_colour * (phase * scattered * u.z / sum.z);
 }
 
 // The light of the surroundings on a flat diffuse surface, per albedo.
@@ -168,7 +178,7 @@ vec3 layered_received(vec3 normal) {
 }
 
 vec3 layered_diffuse_surroundings(mat3 frame) {
-  if (!base_fibres) return base_colour * layered_received(frame[2]);
+  if (!LAYERED_FIBRES) return base_colour * layered_received(frame[2]);
   vec3 fibre = frame * vec3(base_axis, 0.0);
   vec3 across = frame * vec3(-base_axis.y, base_axis.x, 0.0);
   return base_colour * base_bands[0] *
@@ -210,23 +220,22 @@ vec3 layered_reflected_surroundings(mat3 frame, vec3 view) {
 }
 
 vec3 layered_fuzz_surroundings(Layer layer) {
-  float visibility = fuzz_visibility_fit(fuzz_visibility, fuzz_density, layer.view.z);
+  float visibility = fuzz_visibility_fit(fuzz_density, layer.view.z);
   if (LAYERED_FUZZ_SLIDES) {
     return fuzz_colour * harmonics_lobe(layer.frame[2], vec3(1.0, 0.5, 0.0)) *
-           (visibility * (1.0 - layered_scattered_down(layer.view)));
+           (visibility * (1.0 - layered_scattered_down(layer.view, layer.cosine)));
   }
   vec3 v = layered_turned(layer.view, fuzz_axis);
-  vec4 ambient = fibre_table(fuzz_ambient_table, fuzz_fibre, fuzz_table_along, layer.view);
-  vec3 gaze = vec3(ambient.x, ambient.y * v.y, ambient.z);
-  float size = max(length(gaze), 1e-6);
-  vec3 direction = layer.frame * layered_back(gaze / size, fuzz_axis);
-  return fuzz_colour * harmonics_lobe(direction, vec3(1.0, size, size * size * size)) * (ambient.w * visibility);
+  vec4 ambient =
+      fibre_table(fuzz_ambient_table, FUZZ_AMBIENT_TEXELS, fuzz_fibre, fuzz_table_along, layer.view, layer.cosine);
+  vec3 gaze = layer.frame * layered_back(vec3(ambient.x, ambient.y * v.y, ambient.z), fuzz_axis);
+  return fuzz_colour * harmonics_mean(gaze) * (ambient.w * visibility);
 }
 
 vec3 layered_surroundings(mat3 frame, vec3 view, Layer layer) {
   vec3 base = layered_diffuse_surroundings(frame);
   if (LAYERED_SIMPLE_FUZZ) {
-    float response = fuzz_visibility_fit(fuzz_visibility, SIMPLE_DENSITY, view.z) * 0.5;
+    float response = fuzz_visibility_fit(SIMPLE_DENSITY, view.z) * 0.5;
     vec3 fuzz = base_colour * harmonics_lobe(frame[2], vec3(1.0, 0.5, 0.0)) * (SIMPLE_COLOUR * response);
     base = mix(base, fuzz, simple_fuzziness);
   }
@@ -243,7 +252,11 @@ vec3 layered(Surface s) {
   for (int i = 0; i < light_count; ++i) {
     vec3 direction;
     vec3 irradiance = arriving_light(i, s.position, direction);
-    sum += irradiance * layered_direct(frame, direction * frame, view, layer);
+    vec3 light = direction * frame;
+    // Below the horizon only wrapped light arrives, or what a smoother normal lets see it.
+    if (LAYERED_SIMPLE_FUZZ || LAYERED_FUZZ_SMOOTHING || light.z > 0.0) {
+      sum += irradiance * layered_direct(frame, light, view, layer);
+    }
   }
   return max(sum, 0.0);
 }

@@ -291,6 +291,7 @@ bool LayeredAppearance::set_environment(const Image& latitude_longitude) {
 
 ShaderBinding LayeredAppearance::shader() const {
   ShaderBinding binding;
+  if (material_.base == LayeredMaterial::Base::lambert) binding.files.emplace_back("layered_no_fibres.glsl");
   if (!material_.specular) binding.files.emplace_back("layered_no_reflection.glsl");
   if (!material_.specular || !material_.specular->energy_compensation) {
     binding.files.emplace_back("layered_no_compensation.glsl");
@@ -303,6 +304,7 @@ ShaderBinding LayeredAppearance::shader() const {
     if (material_.fuzz->phase == FuzzPhase::sggx_symmetric) {
       binding.files.emplace_back("layered_phase_symmetric.glsl");
     }
+    if (!material_.fuzz_scattered_down) binding.files.emplace_back("layered_no_scattered_down.glsl");
     if (material_.fuzz_smoothing > 0) binding.files.emplace_back("layered_smoothing.glsl");
     if (material_.fuzz_slides) binding.files.emplace_back("layered_slides.glsl");
   }
@@ -352,7 +354,6 @@ ShaderBinding LayeredAppearance::shader() const {
       std::vector<Vec3f>{narrow(base_bands_[0]), narrow(base_bands_[1]), narrow(base_bands_[2])});
   const FibreMoments& m = moments(material_.base);
   const bool maximum = material_.base == LayeredMaterial::Base::maximum_normal;
-  set("base_fibres", material_.base != LayeredMaterial::Base::lambert ? 1 : 0);
   // (|l across the fibre| + x n.l) y, and the moments over the zeroth.
   set("base_lobe", Vec2f(maximum ? 0.0f : 1.0f, static_cast<float>((maximum ? 1 : 1 / kPi) / m.one)));
   set("base_moments", narrow(Vec3(m.xx, m.yy, m.zz) / m.one));
@@ -371,9 +372,6 @@ ShaderBinding LayeredAppearance::shader() const {
     binding.textures.push_back({"ggx_albedo_table", albedo_.texture()});
   }
 
-  set("fuzz_visibility",
-      Vec4f(static_cast<float>(kVisibilitySlides[0]), static_cast<float>(kVisibilitySlides[1]),
-            static_cast<float>(kVisibilitySlides[2]), static_cast<float>(kVisibilitySlides[3])));
   if (material_.fuzz) {
     const FuzzParameters& fuzz = *material_.fuzz;
     number("fuzz_density", fuzz.density);
@@ -386,7 +384,6 @@ ShaderBinding LayeredAppearance::shader() const {
     axis("fuzz_axis", fuzz.azimuth);
     set("fuzz_colour", narrow(fuzz.colour));
     number("fuzz_smoothing", material_.fuzz_smoothing);
-    number("fuzz_down_weight", material_.fuzz_scattered_down ? 1 : 0);
     if (material_.fuzz_slides) {
       const std::vector<double>& c = fuzz_polynomial_.coefficients;
       set("fuzz_down_low", narrow({c[0], c[1], c[2]}));
