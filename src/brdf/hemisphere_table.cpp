@@ -51,7 +51,7 @@ std::shared_ptr<const TextureData> HemisphereTable::texture() const {
   texture->format = TextureData::Format::rgba32f;
   texture->width = texture->height = size_;
   std::vector<std::byte> bytes(texels_.size() * sizeof(Vec4f));
-  std::memcpy(bytes.data(), texels_.data(), bytes.size());
+  std::memcpy(bytes.data(), texels_.front().data(), bytes.size());
   texture->levels.push_back(std::move(bytes));
   return texture;
 }
