@@ -158,10 +158,10 @@ float layered_scattered_down(vec3 fibre, vec3 light, float cosine) {
   return fibre_table(fuzz_down_table, FUZZ_DOWN_TEXELS, fibre, fuzz_table_along, light, cosine).x;
 }
 
-// What of the light reaches the base: P_p + c (1 - P_p) P_s.
-vec3 layered_entering(vec3 fibre, vec3 light, float cosine, float passing) {
-  if (!LAYERED_FUZZ_DOWN) return vec3(passing);
-  return passing + fuzz_colour * ((1.0 - passing) * layered_scattered_down(fibre, light, cosine));
+// Attenuation of the base, [P_p + c (1 - P_p) P_s] P_e; `crossing` is P_p P_e.
+vec3 layered_attenuation(Layer layer, vec3 light, float cosine, float crossing) {
+  if (!LAYERED_FUZZ_DOWN) return vec3(crossing);
+  return crossing + fuzz_colour * ((layer.leaving - crossing) * layered_scattered_down(layer.fibre, light, cosine));
 }
 
 vec3 layered_simple_fuzz(vec3 light, vec3 view) {
@@ -192,13 +192,13 @@ vec3 layered_direct(mat3 frame, vec3 light, vec3 view, Layer layer) {
   vec3 u = layered_into(layer, frame, light);
   if (LAYERED_FUZZ_SMOOTHING && u.z <= 0.0) return vec3(0.0);
   float depth = fuzz_density / u.z;
-  float passing = exp(-depth);
   // The exponent of the layer is that of both crossings: exp(-d (1/u.n + 1/v.n)) = P_p P_e.
-  float scattered = fuzz_scattered(depth + layer.depth, passing * layer.leaving);
+  float crossing = exp(-depth) * layer.leaving;
+  float scattered = fuzz_scattered(depth + layer.depth, crossing);
   float cosine = dot(u, layer.fibre);
   vec3 sum = u + layer.view;
   float phase = fuzz_phase(LAYERED_FUZZ_PHASE, fuzz_alpha, fuzz_schlick, cosine, layer.cosine, dot(sum, sum));
-  return base * (layered_entering(layer.fibre, u, cosine, passing) * layer.leaving) + fuzz_colour * (phase * scattered * u.z / sum.z);
+  return base * layered_attenuation(layer, u, cosine, crossing) + fuzz_colour * (phase * scattered * u.z / sum.z);
 }
 
 // The light of the surroundings on a flat diffuse surface, per albedo.
