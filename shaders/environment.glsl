@@ -10,16 +10,22 @@ vec3 harmonics_linear(vec3 d) {
   return environment_harmonics[1] * d.y + environment_harmonics[2] * d.z + environment_harmonics[3] * d.x;
 }
 
-// `d` is unit.
+// As |d|^2 times the value along d.
 vec3 harmonics_quadratic(vec3 d) {
   return environment_harmonics[4] * (d.x * d.y) + environment_harmonics[5] * (d.y * d.z) +
-         environment_harmonics[6] * (3.0 * d.z * d.z - 1.0) + environment_harmonics[7] * (d.x * d.z) +
+         environment_harmonics[6] * (3.0 * d.z * d.z - dot(d, d)) + environment_harmonics[7] * (d.x * d.z) +
          environment_harmonics[8] * (d.x * d.x - d.y * d.y);
 }
 
-// The light convolved with a lobe about d of Legendre coefficients w.
+// The light convolved with a lobe about the unit d of Legendre coefficients w.
 vec3 harmonics_lobe(vec3 d, vec3 w) {
   return environment_harmonics[0] * w.x + harmonics_linear(d) * w.y + harmonics_quadratic(d) * w.z;
+}
+
+// The light convolved with a lobe of mean direction d, |d| <= 1, whose Legendre coefficients fall like those of a Gaussian
+// on the sphere: 1, |d|, |d|^3.
+vec3 harmonics_mean(vec3 d) {
+  return environment_harmonics[0] + harmonics_linear(d) + harmonics_quadratic(d) * length(d);
 }
 
 // Radiance along a unit direction, blurred for a GGX alpha. The middle column is seen along -z.

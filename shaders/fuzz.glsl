@@ -11,25 +11,25 @@ float fuzz_scattered(float x, float passing) {
   return x < 0.01 ? x * (1.0 - x * (0.5 - x * 0.16666667)) : 1.0 - passing;
 }
 
-// p(u, v) of light and view above the horizon. `schlick`: k, and r(k) (1 - k^2) / (4 pi).
-float fuzz_phase(int kind, float alpha, vec2 schlick, vec3 fibre, vec3 light, vec3 view) {
-  vec3 sum = light + view;
-  float squared = dot(sum, sum);
-  float along = dot(sum, fibre);
+// p(u, v) of light and view above the horizon, by their cosines to the fibre and |u + v|^2. `schlick`: k, and
+// r(k) (1 - k^2) / (4 pi).
+float fuzz_phase(int kind, float alpha, vec2 schlick, float light_cosine, float view_cosine, float squared) {
+  float along = light_cosine + view_cosine;
   if (kind == FUZZ_SCHLICK) {
     float q = 1.0 - schlick.x * sqrt(max(1.0 - along * along / squared, 0.0));
     return schlick.y / (q * q);
   }
   float a2 = alpha * alpha;
   float ratio = squared / (along * along * (1.0 - a2) + a2 * squared);
-  float cosine = dot(light, fibre);
-  if (kind == FUZZ_SGGX_SYMMETRIC) cosine = min(abs(cosine), abs(dot(view, fibre)));  // the larger sigma
+  float cosine = light_cosine;
+  if (kind == FUZZ_SGGX_SYMMETRIC) cosine = min(abs(light_cosine), abs(view_cosine));  // the larger sigma
   float area2 = 1.0 - cosine * cosine * (1.0 - a2);
   return alpha * a2 * 0.07957747154594767 * ratio * ratio * inversesqrt(area2);  // D / (4 sigma); 1 / (4 pi)
 }
 
-// G~ of the slides; c are the coefficients bench_fuzz_fit prints.
-float fuzz_visibility_fit(vec4 c, float density, float m) {
+// G~ of the slides, with the coefficients bench_fuzz_fit prints (kVisibilitySlides in src/brdf/fuzz_approximations.h).
+float fuzz_visibility_fit(float density, float m) {
+  const vec4 c = vec4(-1.048755973, 0.573646848, 0.662396866, -0.131619429);
   return density > 0.0 ? density * (1.0 + m * (c.x + m * c.y)) / (density + m * (c.z + m * m * c.w)) : 0.0;
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A surface whose normal and GGX lobe come from filtered maps (src/texture/mapped_appearance.h), over the base and under
 // the lights of layered.glsl.
-// needs: surface.glsl environment.glsl punctual.glsl ggx.glsl aniso_map.glsl layered.glsl
+// needs: surface.glsl punctual.glsl ggx.glsl ggx_surroundings.glsl aniso_map.glsl layered.glsl
 
 uniform sampler2D mapped_normals;     // x and y as n / 2 + 1/2
 uniform sampler2D mapped_lobes;
@@ -30,33 +30,12 @@ vec3 mapped_reflectance(vec2 alpha, vec3 view) {
   return mapped_f0 * albedo.x + albedo.y;
 }
 
-// Light of the surroundings as in layered.glsl: lookups along the longer axis, here x.
-vec3 mapped_surroundings(vec2 alpha, mat3 frame, vec3 view) {
-  float count = float(mapped_lobe_samples);
-  float extra = alpha.x * alpha.x - alpha.y * alpha.y;
-  float blur = sqrt(alpha.y * alpha.y + extra / (count * count));
-  float view_masking = 1.0 + lambda_ggx(alpha, view);
-  vec3 sum = vec3(0.0);
-  float total = 0.0;
-  for (int i = 0; i < mapped_lobe_samples; ++i) {
-    float c = (2.0 * float(i) + 1.0) / count - 1.0;
-    vec3 h = normalize(vec3(sqrt(extra) * c * inversesqrt(1.0 - c * c), 0.0, 1.0));
-    float cosine = dot(view, h);
-    vec3 light = 2.0 * cosine * h - view;
-    if (cosine <= 0.0 || light.z <= 1e-4) continue;
-    float weight = cosine / h.z * view_masking / (view_masking + lambda_ggx(alpha, light));
-    sum += weight * environment_radiance(frame * light, blur);
-    total += weight;
-  }
-  return total > 0.0 ? sum / total * mapped_reflectance(alpha, view) : vec3(0.0);
-}
-
 vec3 mapped(Surface s) {
   vec2 uv = s.uv * mapped_repeat;
   vec2 stored = texture(mapped_normals, uv).xy;
   vec3 channels = texture(mapped_lobes, uv).rgb;
   vec3 n = decode_normal_xy(stored);
-  n.y *= mapped_green;
+  n.xy *= vec2(s.side, s.side * mapped_green);  // from behind, bumps are dents
   AnisotropicLobe lobe = mapped_root ? decode_anisotropy_root(channels) : decode_anisotropy_correlation(channels);
   mat3 turned = mat3(s.tangent, s.bitangent_sign * cross(s.normal, s.tangent), s.normal) * normal_map_frame(n);
   Surface m = s;
@@ -68,7 +47,9 @@ vec3 mapped(Surface s) {
   mat3 frame = turned * mat3(vec3(lobe.axis, 0.0), vec3(-lobe.axis.y, lobe.axis.x, 0.0), vec3(0.0, 0.0, 1.0));
   vec3 view = s.view * frame;
   if (view.z < LAYERED_LOWEST_VIEW) view = normalize(vec3(view.xy, LAYERED_LOWEST_VIEW));
-  if (mapped_lobe_samples > 0) sum += s.occlusion * mapped_surroundings(alpha, frame, view);
+  if (mapped_lobe_samples > 0) {
+    sum += s.occlusion * ggx_surroundings(alpha, frame, view, mapped_lobe_samples) * mapped_reflectance(alpha, view);
+  }
   for (int i = 0; i < light_count; ++i) {
     vec3 direction;
     vec3 irradiance = arriving_light(i, s.position, direction);

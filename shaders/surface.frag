@@ -30,7 +30,7 @@ layout(location = 2) out vec4 out_normal;            // and occlusion
 layout(location = 3) out vec4 out_tangent;           // and the sign of the bitangent
 layout(location = 4) out vec4 out_eye_normal;        // and the tangent angle
 layout(location = 5) out vec4 out_uv_and_curvature;  // u, v, curvature, 1
-layout(location = 6) out vec4 out_mesh_normal;       // and 0
+layout(location = 6) out vec4 out_mesh_normal;       // and the side
 
 vec3 across(vec3 direction, vec3 unit_normal) {
   vec3 projected = direction - unit_normal * dot(unit_normal, direction);
@@ -57,6 +57,7 @@ void main() {
 
   // Cloth is seen from both sides: the back's normal is turned to the viewer, its threads stay where they are.
   float side = gl_FrontFacing == (surface_front_sign > 0.0) ? 1.0 : -1.0;
+  s.side = side;
   s.normal = (RENORMALISE ? normalize(normal) : normal) * side;
   s.mesh_normal = s.normal;
   s.tangent = tangent.xyz;
@@ -104,6 +105,6 @@ void main() {
     out_tangent = vec4(s.tangent, s.bitangent_sign);
     out_eye_normal = vec4(s.eye_normal, s.tangent_angle);
     out_uv_and_curvature = vec4(s.uv, s.curvature, 1.0);
-    out_mesh_normal = vec4(s.mesh_normal, 0.0);
+    out_mesh_normal = vec4(s.mesh_normal, s.side);
   }
 }

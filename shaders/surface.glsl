@@ -7,6 +7,7 @@ struct Surface {
   vec3 normal;           // view space, unit
   vec3 mesh_normal;      // the same before any normal map
   vec3 tangent;          // view space, unit, orthogonal to the normal
+  float side;            // 1 on the front; -1 on the back, whose normal is turned to the viewer
   float bitangent_sign;  // bitangent = bitangent_sign * cross(normal, tangent)
   vec3 view;             // view space, unit, from the point towards the eye
   vec3 eye_normal;       // the normal in the eye frame: its (x, y) indexes MatCap-like tables

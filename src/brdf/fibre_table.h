@@ -9,6 +9,9 @@
 
 namespace sateen {
 
+/// Fibres of tables lean at least this far, in radians: nothing to the eye, and every direction has a place.
+inline constexpr double kUprightTilt = 1e-3;
+
 /// Four values for every direction w of the upper hemisphere that are the same on both sides of the plane of
 /// fibre and normal: light scattered by a fibre changes fast with the angle between w and the fibre and
 /// slowly along the cone of equal angles, so the table is fine along the first and coarse along the second.
@@ -21,24 +24,27 @@ class FibreTable {
   FibreTable() = default;
   /// The values of directions on one cone.
   using Column = std::function<Vec4(const Vec3&)>;
-  /// `fibre` is unit, in the x-z plane, z >= 0. Calls `column` once for each cone, given its cosine to the
-  /// fibre, in parallel, and what it returns once a texel, for directions on the side of positive y, a little
-  /// inside the hemisphere and off the plane.
+  /// `fibre` is unit, in the x-z plane, z >= 0, and not quite upright (kUprightTilt): where a direction lies
+  /// on its cone must mean something. Calls `column` once for each cone, given its cosine to the fibre, in
+  /// parallel, and what it returns once a texel, for directions on the side of positive y, a little inside
+  /// the hemisphere and off the plane.
   FibreTable(const Vec3& fibre, int along, int across, const std::function<Column(double)>& column);
 
   /// Directions below the horizon read the horizon. Texels are held in single precision, as the GPU does.
-  Vec4 operator()(const Vec3& direction) const;
+  Vec4 operator()(const Vec3& direction) const { return read(place(fibre_, direction)); }
+  /// Where a direction lies over the texels' middles about any unit fibre, z >= 0, of any azimuth: along and
+  /// across, both in [0, 1].
+  static Vec2 place(const Vec3& fibre, const Vec3& direction);
+  Vec4 read(const Vec2& place) const;
   /// rgba32f, or rg32f with the first two values only; `along` to the right.
   std::shared_ptr<const TextureData> texture(bool two_values = false) const;
   /// What takes the first coordinate to [0, 1] over the texels' middles: scale and offset.
   Vec2 along_coordinate() const;
 
  private:
-  struct Cone {
-    double lowest, highest;  ///< of w.n
-  };
-  Cone cone(double cosine) const;
-  double last_along() const;
+  std::size_t texel_index(int i, int j) const {
+    return static_cast<std::size_t>(j) * static_cast<std::size_t>(along_) + static_cast<std::size_t>(i);
+  }
   double cosine_at(double along) const;
   Vec3 direction(double along, double across) const;
 

@@ -34,8 +34,10 @@ std::vector<Node> nodes_about(const FuzzParameters& fuzz, const Vec3& fibre, dou
   const double peak = kPi - std::acos(std::clamp(cosine, -1.0, 1.0));
   const double width = fuzz.phase == FuzzPhase::schlick ? std::sqrt(1 - std::abs(fuzz.k)) : fuzz.alpha;
   const std::array<double, 3> cones{peak, peak - 3 * width, peak + 3 * width};
+  const std::vector<SphereNode> directions = hemisphere_nodes(fibre, cones, kOrder);
   std::vector<Node> nodes;
-  for (const SphereNode& node : hemisphere_nodes(fibre, cones, kOrder)) {
+  nodes.reserve(directions.size());
+  for (const SphereNode& node : directions) {
     const double along = node.direction.dot(fibre);
     nodes.push_back({node.direction, node.weight, along, fuzz_projected_area(fuzz.alpha, along),
                      fuzz_passing(fuzz.density, node.direction)});
@@ -99,14 +101,10 @@ void integrate_bands(FuzzTable& table, double density) {
 
 }  // namespace
 
-Vec3 FuzzTable::mean_direction(const Vec3& view) const {
-  const Vec4 read = ambient(view);
-  return {read.x(), read.y() * view.y(), read.z()};
-}
-
 FuzzTable make_fuzz_table(const FuzzParameters& parameters) {
   FuzzParameters fuzz = parameters;
   fuzz.azimuth = 0;
+  if (std::sin(fuzz.tilt) < kUprightTilt) fuzz.tilt = kUprightTilt;
   fuzz.colour = Vec3::Ones();
   // At zero density response and visibility vanish together: their ratio has a limit, taken just above.
   fuzz.density = std::max(fuzz.density, 1e-4);

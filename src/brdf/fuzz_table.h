@@ -28,7 +28,6 @@ struct FuzzTable {
   std::array<double, 3> passing_bands{1, 2.0 / 3, 0.25};
   std::array<double, 3> scattered_bands{0, 0, 0};
 
-  Vec3 mean_direction(const Vec3& view) const;
   double response(const Vec3& view) const { return ambient(view).w(); }
 };
 

@@ -28,7 +28,7 @@ HemisphereTable::HemisphereTable(int size, const std::function<Vec4(const Vec3&)
   parallel_for(size, [&](int y) {
     for (int x = 0; x < size; ++x) {
       const Vec2 square(2.0 * x / (size - 1) - 1, 2.0 * y / (size - 1) - 1);
-      texels_[static_cast<std::size_t>(y * size + x)] = f(hemisphere_direction(square)).cast<float>();
+      texels_[texel_index(x, y)] = f(hemisphere_direction(square)).cast<float>();
     }
   });
 }
@@ -39,9 +39,7 @@ Vec4 HemisphereTable::operator()(const Vec3& direction) const {
   const int y = std::clamp(static_cast<int>(at.y()), 0, size_ - 2);
   const double fx = at.x() - x;
   const double fy = at.y() - y;
-  const auto texel = [&](int i, int j) -> Vec4 {
-    return texels_[static_cast<std::size_t>((y + j) * size_ + x + i)].cast<double>();
-  };
+  const auto texel = [&](int i, int j) -> Vec4 { return texels_[texel_index(x + i, y + j)].cast<double>(); };
   return (1 - fy) * ((1 - fx) * texel(0, 0) + fx * texel(1, 0)) +
          fy * ((1 - fx) * texel(0, 1) + fx * texel(1, 1));
 }
@@ -51,7 +49,7 @@ std::shared_ptr<const TextureData> HemisphereTable::texture() const {
   texture->format = TextureData::Format::rgba32f;
   texture->width = texture->height = size_;
   std::vector<std::byte> bytes(texels_.size() * sizeof(Vec4f));
-  std::memcpy(bytes.data(), texels_.data(), bytes.size());
+  std::memcpy(bytes.data(), texels_.front().data(), bytes.size());
   texture->levels.push_back(std::move(bytes));
   return texture;
 }

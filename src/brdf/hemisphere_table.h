@@ -25,6 +25,10 @@ class HemisphereTable {
   std::shared_ptr<const TextureData> texture() const;
 
  private:
+  std::size_t texel_index(int x, int y) const {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(size_) + static_cast<std::size_t>(x);
+  }
+
   int size_ = 0;
   std::vector<Vec4f> texels_;
 };

@@ -134,6 +134,19 @@ Vec3 JsonObject::colour(const std::string& key, const Vec3& fallback, double hig
   return rgb;
 }
 
+Vec2 JsonObject::pair(const std::string& key, const Vec2& fallback, Range range) {
+  known_.insert(key);
+  if (!has(key)) return fallback;
+  const nlohmann::json& value = raw(key);
+  const bool listed = value.is_array() && value.size() == 2 && value[0].is_number() && value[1].is_number();
+  const std::string expected = fmt::format("a number or [x, y] in [{}, {}]", range.low, range.high);
+  if (!listed && !value.is_number()) fail(key, expected);
+  const Vec2 xy =
+      listed ? Vec2(value[0].get<double>(), value[1].get<double>()) : Vec2::Constant(value.get<double>());
+  if (!(xy.minCoeff() >= range.low && xy.maxCoeff() <= range.high)) fail(key, expected);
+  return xy;
+}
+
 Vec3 JsonObject::direction(const std::string& key) {
   const nlohmann::json& value = raw(key);
   const std::string expected = "[x, y, z], a direction of positive length";

@@ -40,6 +40,8 @@ class JsonObject {
   std::string text(const std::string& key, const std::string& fallback);
   /// [r, g, b] or one number, each in [0, high].
   Vec3 colour(const std::string& key, const Vec3& fallback, double high = 1);
+  /// One number or [x, y], each in the closed range.
+  Vec2 pair(const std::string& key, const Vec2& fallback, Range range);
   /// [x, y, z] of any positive length, returned unit. The key must be there.
   Vec3 direction(const std::string& key);
   /// [x, y, z], anywhere. The key must be there.

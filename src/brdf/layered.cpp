@@ -5,6 +5,8 @@
 #include <cmath>
 
 #include "sateen/brdf/fibre_diffuse.h"
+#include "sateen/brdf/ggx_surroundings.h"
+#include "sateen/core/picture_texture.h"
 
 namespace sateen {
 
@@ -25,21 +27,13 @@ Vec3 lifted_view(const Vec3& view) {
   return view.z() >= kLowestView ? view : Vec3(view.x(), view.y(), kLowestView).normalized();
 }
 
-Vec3f narrow(const Vec3& v) {
-  return v.cast<float>();
-}
-
-const FibreMoments& moments(LayeredMaterial::Base base) {
-  return base == LayeredMaterial::Base::maximum_normal ? kMaximumNormalMoments : kFibreMoments;
-}
-
-/// The base layer's radiance for a lamp of unit irradiance above the horizon, per base colour.
+/// The base layer's radiance for a lamp of unit irradiance above the horizon, per base colour; of fibres,
+/// times their albedo.
 double base_value(const LayeredMaterial& material, const Vec3& light) {
   if (material.base == LayeredMaterial::Base::lambert) return light.z() / kPi;
   const Vec3 local = turned(light, material.base_azimuth);
-  const double value = material.base == LayeredMaterial::Base::maximum_normal ? fibre_maximum_normal(local)
-                                                                              : fibre_diffuse(local);
-  return value / moments(material.base).one;
+  return material.base == LayeredMaterial::Base::maximum_normal ? fibre_maximum_normal(local)
+                                                                : fibre_diffuse(local);
 }
 
 // The slides' simplified version for deferred shading.
@@ -63,10 +57,29 @@ void Lighting::set_environment(const Image& latitude_longitude) {
   harmonics = project_environment(latitude_longitude);
 }
 
+const FibreMoments& LayeredAppearance::moments(LayeredMaterial::Base base) {
+  return base == LayeredMaterial::Base::maximum_normal ? kMaximumNormalMoments : kFibreMoments;
+}
+
+Vec3 FibreMap::fibre(const Vec2& uv) const {
+  std::array<double, 2> stored{};
+  sample_repeating(*picture, uv.cwiseProduct(repeat), stored);
+  Vec2 xy(2 * stored[0] - 1, 2 * stored[1] - 1);
+  const double length = xy.norm();
+  xy = length > 1e-6 ? Vec2(xy / length) : Vec2(1, 0);
+  xy *= std::clamp(length, kUprightTilt, 1.0);
+  return {xy.x(), xy.y(), std::sqrt(std::max(1 - xy.squaredNorm(), 0.0))};
+}
+
 LayeredAppearance::LayeredAppearance(LayeredMaterial material, Lighting lighting)
     : material_(std::move(material)), lighting_(std::move(lighting)) {
   if (material_.specular) {
-    AnisotropicRoughness along = material_.specular->roughness;
+    AnisotropicRoughness& roughness = material_.specular->roughness;
+    if (roughness.alpha_t < roughness.alpha_b) {
+      std::swap(roughness.alpha_t, roughness.alpha_b);
+      roughness.azimuth += kPi / 2;
+    }
+    AnisotropicRoughness along = roughness;
     along.azimuth = 0;
     albedo_ = HemisphereTable(kTableSize, [&](const Vec3& w) {
       const GgxAlbedo albedo = ggx_albedo(along, lifted_view(w), 24);
@@ -74,7 +87,10 @@ LayeredAppearance::LayeredAppearance(LayeredMaterial material, Lighting lighting
     });
     if (material_.specular->energy_compensation) mean_albedo_ = ggx_mean_albedo(along);
   }
-  if (material_.fuzz) {
+  if (material_.fuzz && std::sin(material_.fuzz->tilt) < kUprightTilt) material_.fuzz->tilt = kUprightTilt;
+  if (material_.fuzz && material_.fuzz_fibres) {
+    fuzz_tilts_ = std::make_shared<const FuzzTiltTable>(*material_.fuzz);
+  } else if (material_.fuzz) {
     fuzz_table_ = make_fuzz_table(*material_.fuzz);
     if (material_.fuzz_slides) {
       fuzz_polynomial_ = fit_scattered_down(*material_.fuzz, ScatteredDownPolynomial::kSlidesDegree);
@@ -83,28 +99,47 @@ LayeredAppearance::LayeredAppearance(LayeredMaterial material, Lighting lighting
   base_bands_ = base_bands();
 }
 
-std::array<Vec3, 3> LayeredAppearance::base_bands() const {
+std::array<Vec3, 3> LayeredAppearance::bands_under_fuzz(const Bands& passing, const Bands& scattered) const {
+  const Vec3 colour = material_.fuzz && material_.fuzz_scattered_down ? material_.fuzz->colour : Vec3::Zero();
   std::array<Vec3, 3> bands;
-  for (std::size_t l = 0; l < 3; ++l) bands[l].setConstant(FuzzTable().passing_bands[l]);
-  if (!material_.fuzz) return bands;
-  const Vec3 colour = material_.fuzz_scattered_down ? material_.fuzz->colour : Vec3::Zero();
-  if (material_.fuzz_slides) {
-    const double q = fuzz_passing_albedo_slides(material_.fuzz->density);
-    const Vec3 attenuation = Vec3::Constant(q) + colour * (fuzz_table_.scattered_down_mean * (1 - q));
-    for (Vec3& band : bands) band = band.cwiseProduct(attenuation);
-    return bands;
-  }
-  for (std::size_t l = 0; l < 3; ++l) {
-    bands[l] = Vec3::Constant(fuzz_table_.passing_bands[l]) + colour * fuzz_table_.scattered_bands[l];
-  }
+  for (std::size_t l = 0; l < 3; ++l) bands[l] = Vec3::Constant(passing[l]) + colour * scattered[l];
   return bands;
+}
+
+std::array<Vec3, 3> LayeredAppearance::base_bands() const {
+  if (!material_.fuzz_slides) {
+    return bands_under_fuzz(fuzz_table_.passing_bands, fuzz_table_.scattered_bands);
+  }
+  const double q = fuzz_passing_albedo_slides(material_.fuzz->density);
+  Bands passing = FuzzTable().passing_bands;
+  Bands scattered = passing;
+  for (double& band : scattered) band *= fuzz_table_.scattered_down_mean * (1 - q);
+  for (double& band : passing) band *= q;
+  return bands_under_fuzz(passing, scattered);
 }
 
 LayeredAppearance::Seen LayeredAppearance::seen(const Surface& surface, const Vec3& normal) {
   const Vec3 across = surface.tangent - normal * normal.dot(surface.tangent);
   const Vec3 tangent = across / std::sqrt(std::max(across.squaredNorm(), 1e-12));
-  const Frame frame{tangent, surface.bitangent_sign * normal.cross(tangent), normal};
-  return {frame, lifted_view(frame.into(surface.view))};
+  Mat3 frame;
+  frame << tangent, surface.bitangent_sign * normal.cross(tangent), normal;
+  return {frame, lifted_view(frame.transpose() * surface.view)};
+}
+
+LayeredAppearance::Layer LayeredAppearance::layer(const Surface& surface, const Seen& base) const {
+  Layer layer{base, material_.fuzz.value_or(FuzzParameters{}), base_bands_};
+  if (material_.fuzz_smoothing > 0) {
+    const Vec3 blend =
+        (1 - material_.fuzz_smoothing) * surface.normal + material_.fuzz_smoothing * surface.mesh_normal;
+    if (blend.norm() > 1e-6) static_cast<Seen&>(layer) = seen(surface, blend.normalized());
+  }
+  if (fuzz_tilts_) {
+    const Vec3 fibre = material_.fuzz_fibres->fibre(surface.uv);
+    layer.fuzz.tilt = std::atan2(fibre.head<2>().norm(), fibre.z());
+    layer.fuzz.azimuth = std::atan2(fibre.y(), fibre.x());
+    layer.bands = bands_under_fuzz(fuzz_tilts_->passing_bands(), fuzz_tilts_->scattered_bands(fibre));
+  }
+  return layer;
 }
 
 int LayeredAppearance::lobe_samples() const {
@@ -112,9 +147,10 @@ int LayeredAppearance::lobe_samples() const {
   return material_.specular->roughness.alpha_t == material_.specular->roughness.alpha_b ? 1 : 8;
 }
 
-double LayeredAppearance::scattered_down(const Vec3& light) const {
-  if (material_.fuzz_slides) return fuzz_polynomial_(light, *material_.fuzz);
-  return fuzz_table_.scattered_down(turned(light, material_.fuzz->azimuth)).x();
+double LayeredAppearance::scattered_down(const FuzzParameters& fuzz, const Vec3& light) const {
+  if (material_.fuzz_slides) return fuzz_polynomial_(light, fuzz);
+  if (fuzz_tilts_) return fuzz_tilts_->scattered_down(fuzz.fibre(), light);
+  return fuzz_table_.scattered_down(turned(light, fuzz.azimuth)).x();
 }
 
 Vec3 LayeredAppearance::simple_fuzz(const Vec3& light, const Vec3& view) const {
@@ -129,12 +165,13 @@ Vec3 LayeredAppearance::simple_fuzz(const Vec3& light, const Vec3& view) const {
 }
 
 /// For a lamp of unit irradiance in direction `towards`, in view space.
-Vec3 LayeredAppearance::direct(const Vec3& towards, const Seen& seen, const Seen& layer) const {
-  const Vec3 light = seen.frame.into(towards);
+Vec3 LayeredAppearance::direct(const Vec3& towards, const Seen& seen, const Layer& layer) const {
+  const Vec3 light = seen.into(towards);
   const Vec3& view = seen.view;
   Vec3 diffuse = Vec3::Zero();
   if (light.z() > 0) {
     diffuse = material_.base_colour * base_value(material_, light);
+    if (material_.base != LayeredMaterial::Base::lambert) diffuse /= moments(material_.base).one;
   }
   if (material_.simple_fuzziness > 0) {
     diffuse =
@@ -154,123 +191,94 @@ Vec3 LayeredAppearance::direct(const Vec3& towards, const Seen& seen, const Seen
     base += f * light.z();
   }
   if (!material_.fuzz) return base;
-  const Vec3 crossing = layer.frame.into(towards);
+  const Vec3 crossing = layer.into(towards);
   if (crossing.z() <= 0) return Vec3::Zero();
-  const FuzzParameters& fuzz = *material_.fuzz;
-  const double down = material_.fuzz_scattered_down ? scattered_down(crossing) : 0;
+  const FuzzParameters& fuzz = layer.fuzz;
+  const double down = material_.fuzz_scattered_down ? scattered_down(fuzz, crossing) : 0;
   return base.cwiseProduct(fuzz_attenuation(fuzz, crossing, layer.view, down)) +
          fuzz_brdf(fuzz, crossing, layer.view) * crossing.z();
 }
 
 /// The light of the surroundings on a flat diffuse surface, per albedo.
-Vec3 LayeredAppearance::received(const Vec3& normal) const {
+Vec3 LayeredAppearance::received(const Vec3& normal, const Layer& layer) const {
   const SphericalHarmonics9& light = lighting_.harmonics;
-  return light.c[0].cwiseProduct(base_bands_[0]) + light.linear(normal).cwiseProduct(base_bands_[1]) +
-         light.quadratic(normal).cwiseProduct(base_bands_[2]);
+  return light.c[0].cwiseProduct(layer.bands[0]) + light.linear(normal).cwiseProduct(layer.bands[1]) +
+         light.quadratic(normal).cwiseProduct(layer.bands[2]);
 }
 
-Vec3 LayeredAppearance::diffuse_surroundings(const Frame& frame) const {
+Vec3 LayeredAppearance::diffuse_surroundings(const Mat3& frame, const Layer& layer) const {
   const SphericalHarmonics9& light = lighting_.harmonics;
   if (material_.base == LayeredMaterial::Base::lambert) {
-    return material_.base_colour.cwiseProduct(received(frame.normal));
+    return material_.base_colour.cwiseProduct(received(frame.col(2), layer));
   }
   const Vec3 axis(std::cos(material_.base_azimuth), std::sin(material_.base_azimuth), 0);
-  const Vec3 fibre = frame.out_of(axis);
-  const Vec3 across = frame.out_of({-axis.y(), axis.x(), 0});
+  const Vec3 fibre = frame * axis;
+  const Vec3 across = frame * Vec3(-axis.y(), axis.x(), 0);
   const FibreMoments& m = moments(material_.base);
-  const Vec3 sum = light.c[0] * m.one + light.linear(frame.normal) * m.z + light.quadratic(fibre) * m.xx +
-                   light.quadratic(across) * m.yy + light.quadratic(frame.normal) * m.zz;
-  return material_.base_colour.cwiseProduct(sum / m.one).cwiseProduct(base_bands_[0]);
+  const Vec3 sum = light.c[0] * m.one + light.linear(frame.col(2)) * m.z + light.quadratic(fibre) * m.xx +
+                   light.quadratic(across) * m.yy + light.quadratic(frame.col(2)) * m.zz;
+  return material_.base_colour.cwiseProduct(sum / m.one).cwiseProduct(layer.bands[0]);
 }
 
-Vec3 LayeredAppearance::reflected_surroundings(const Seen& base) const {
-  const Frame& frame = base.frame;
-  const Vec3& view = base.view;
+Vec3 LayeredAppearance::reflected_surroundings(const Seen& base, const Layer& layer) const {
   const GgxParameters& ggx = *material_.specular;
-  const AnisotropicRoughness& roughness = ggx.roughness;
-  const bool along = roughness.alpha_t >= roughness.alpha_b;
-  const double major = along ? roughness.alpha_t : roughness.alpha_b;
-  const double minor = along ? roughness.alpha_b : roughness.alpha_t;
-  const double angle = roughness.azimuth + (along ? 0 : kPi / 2);
-  const Vec2 axis(std::cos(angle), std::sin(angle));
-  // Half vectors at the quantiles of the slopes that the narrow lobe lacks along the long axis (a GGX
-  // marginal: slope = a c / sqrt(1 - c^2) with c even in (-1, 1)), each looked up with the narrow lobe.
-  const int count = lobe_samples();
-  const double extra = major * major - minor * minor;
-  const double blur = std::sqrt(minor * minor + extra / (count * count));
-  const double view_masking = 1 + ggx_lambda(roughness, view);
-  Vec3 sum = Vec3::Zero();
-  double total = 0;
-  for (int i = 0; i < count; ++i) {
-    const double c = (2 * i + 1.0) / count - 1;
-    const double slope = std::sqrt(extra) * c / std::sqrt(1 - c * c);
-    const Vec3 half = Vec3(slope * axis.x(), slope * axis.y(), 1).normalized();
-    const double cosine = view.dot(half);
-    const Vec3 light = 2 * cosine * half - view;
-    if (cosine <= 0 || light.z() <= 1e-4) continue;
-    const double weight = cosine / half.z() * view_masking / (view_masking + ggx_lambda(roughness, light));
-    sum += weight * lighting_.environment->radiance(frame.out_of(light), blur);
-    total += weight;
-  }
-  const Vec4 albedo = albedo_(turned(view, roughness.azimuth));
-  Vec3 reflected = Vec3::Zero();
-  if (total > 0) reflected = (sum / total).cwiseProduct(ggx.f0 * albedo.x() + Vec3::Constant(albedo.y()));
+  const Mat3 along = base.frame * Eigen::AngleAxisd(ggx.roughness.azimuth, Vec3::UnitZ()).toRotationMatrix();
+  const Vec3 view = turned(base.view, ggx.roughness.azimuth);
+  const Vec4 albedo = albedo_(view);
+  const Vec3 mean = ggx_surroundings(*lighting_.environment, ggx.roughness, along, view, lobe_samples());
+  Vec3 reflected = mean.cwiseProduct(ggx.f0 * albedo.x() + Vec3::Constant(albedo.y()));
   // What crosses the fuzz, for probes as for harmonics.
-  reflected = reflected.cwiseProduct(base_bands_[0]);
+  reflected = reflected.cwiseProduct(layer.bands[0]);
   if (ggx.energy_compensation) {
     // The compensating lobe is diffuse: integrated over lights it is (1 - E(v)) times the bounces.
     const Vec3 lobe = ggx_multiple_scattering(ggx.f0, 0, albedo.x() + albedo.y(), mean_albedo_);
     const Vec3 bounces = lobe * (kPi * (1 - mean_albedo_));
-    reflected += bounces.cwiseProduct(received(frame.normal));
+    reflected += bounces.cwiseProduct(received(base.frame.col(2), layer));
   }
   return reflected;
 }
 
-Vec3 LayeredAppearance::fuzz_surroundings(const Seen& layer) const {
-  const FuzzParameters& fuzz = *material_.fuzz;
+Vec3 LayeredAppearance::fuzz_surroundings(const Layer& layer) const {
+  const FuzzParameters& fuzz = layer.fuzz;
   const double visibility = fuzz_visibility_slides(fuzz.density, layer.view.z());
   if (material_.fuzz_slides) {
-    return fuzz.colour.cwiseProduct(lighting_.harmonics.hemisphere_mean(layer.frame.normal)) *
-           (visibility * (1 - scattered_down(layer.view)));
+    return fuzz.colour.cwiseProduct(lighting_.harmonics.hemisphere_mean(layer.frame.col(2))) *
+           (visibility * (1 - scattered_down(fuzz, layer.view)));
   }
   const Vec3 local = turned(layer.view, fuzz.azimuth);
-  const Vec3 gaze = fuzz_table_.mean_direction(local);
+  const Vec4 ambient =
+      fuzz_tilts_ ? fuzz_tilts_->ambient(fuzz.fibre(), layer.view) : fuzz_table_.ambient(local);
+  const Vec3 gaze(ambient.x(), ambient.y() * local.y(), ambient.z());
   // The lobe p g about its mean direction, as narrow as the mean is long: a lobe whose Legendre coefficients
   // fall like those of a Gaussian on the sphere, 1, g, g^3.
   const double length = std::max(gaze.norm(), 1e-6);
-  const Vec3 direction = layer.frame.out_of(turned(gaze / length, -fuzz.azimuth));
-  const double response = fuzz_table_.response(local) * visibility;
+  const Vec3 direction = layer.frame * turned(gaze / length, -fuzz.azimuth);
   return fuzz.colour.cwiseProduct(lighting_.harmonics.lobe(direction, {1, length, length * length * length}) *
-                                  response);
+                                  (ambient.w() * visibility));
 }
 
-Vec3 LayeredAppearance::surroundings(const Seen& seen, const Seen& layer) const {
-  Vec3 base = diffuse_surroundings(seen.frame);
+Vec3 LayeredAppearance::surroundings(const Seen& seen, const Layer& layer) const {
+  Vec3 base = diffuse_surroundings(seen.frame, layer);
   if (material_.simple_fuzziness > 0) {
     // The slides' ambient product for the fixed parameters; even scattering sends half down.
     const double response = fuzz_visibility_slides(kSimpleDensity, seen.view.z()) * 0.5;
     const Vec3 fuzz =
-        material_.base_colour.cwiseProduct(lighting_.harmonics.hemisphere_mean(seen.frame.normal)) *
+        material_.base_colour.cwiseProduct(lighting_.harmonics.hemisphere_mean(seen.frame.col(2))) *
         (kSimpleColour * response);
     base = (1 - material_.simple_fuzziness) * base + material_.simple_fuzziness * fuzz;
   }
-  if (material_.specular && lighting_.environment) base += reflected_surroundings(seen);
+  if (material_.specular && lighting_.environment) base += reflected_surroundings(seen, layer);
   if (!material_.fuzz) return base;
   return base * fuzz_passing(material_.fuzz->density, layer.view) + fuzz_surroundings(layer);
 }
 
 Vec3 LayeredAppearance::evaluate(const Surface& surface) const {
   const Seen base = seen(surface, surface.normal);
-  Seen layer = base;
-  if (material_.fuzz_smoothing > 0) {
-    const Vec3 blend =
-        (1 - material_.fuzz_smoothing) * surface.normal + material_.fuzz_smoothing * surface.mesh_normal;
-    if (blend.norm() > 1e-6) layer = seen(surface, blend.normalized());
-  }
-  Vec3 sum = surface.occlusion * surroundings(base, layer);
+  const Layer above = layer(surface, base);
+  Vec3 sum = surface.occlusion * surroundings(base, above);
   for (const PunctualLight& light : lighting_.lights) {
     const ArrivingLight arriving = arriving_light(light, surface.position);
-    sum += arriving.irradiance.cwiseProduct(direct(arriving.direction, base, layer));
+    sum += arriving.irradiance.cwiseProduct(direct(arriving.direction, base, above));
   }
   return sum.cwiseMax(0);
 }
@@ -279,124 +287,14 @@ Appearance::Needs LayeredAppearance::needs() const {
   const bool turning = material_.base != LayeredMaterial::Base::lambert ||
                        (material_.specular &&
                         material_.specular->roughness.alpha_t != material_.specular->roughness.alpha_b) ||
-                       (material_.fuzz && std::sin(material_.fuzz->tilt) > 1e-9);
-  return {.tangents = turning};
+                       (material_.fuzz && (material_.fuzz_fibres || std::sin(material_.fuzz->tilt) > 1e-9));
+  return {.tangents = turning, .uvs = material_.fuzz_fibres.has_value()};
 }
 
 bool LayeredAppearance::set_environment(const Image& latitude_longitude) {
   lighting_.set_environment(latitude_longitude);
   if (!keep_lights_) lighting_.lights.clear();
   return true;
-}
-
-ShaderBinding LayeredAppearance::shader() const {
-  ShaderBinding binding;
-  if (!material_.specular) binding.files.emplace_back("layered_no_reflection.glsl");
-  if (!material_.specular || !material_.specular->energy_compensation) {
-    binding.files.emplace_back("layered_no_compensation.glsl");
-  }
-  if (!material_.fuzz) binding.files.emplace_back("layered_no_fuzz.glsl");
-  if (material_.fuzz) {
-    if (material_.fuzz->phase == FuzzPhase::schlick) {
-      binding.files.emplace_back("layered_phase_schlick.glsl");
-    }
-    if (material_.fuzz->phase == FuzzPhase::sggx_symmetric) {
-      binding.files.emplace_back("layered_phase_symmetric.glsl");
-    }
-    if (material_.fuzz_smoothing > 0) binding.files.emplace_back("layered_smoothing.glsl");
-    if (material_.fuzz_slides) binding.files.emplace_back("layered_slides.glsl");
-  }
-  if (material_.simple_fuzziness == 0) binding.files.emplace_back("layered_no_simple_fuzz.glsl");
-  binding.files.emplace_back("layered.glsl");
-  binding.function = "layered";
-  const auto set = [&](const char* name, UniformValue value) {
-    binding.uniforms.push_back({name, std::move(value)});
-  };
-  const auto number = [&](const char* name, double value) { set(name, static_cast<float>(value)); };
-  const auto axis = [&](const char* name, double angle) {
-    set(name, Vec2f(static_cast<float>(std::cos(angle)), static_cast<float>(std::sin(angle))));
-  };
-
-  std::vector<Vec4f> positions;
-  std::vector<Vec4f> colours;
-  std::vector<Vec4f> axes;
-  for (const PunctualLight& light : lighting_.lights) {
-    const bool directional = light.kind == PunctualLight::Kind::directional;
-    const bool spot = light.kind == PunctualLight::Kind::spot;
-    const Vec3f at = narrow(directional ? light.direction : light.position);
-    const Vec3f colour = narrow(light.colour);
-    const Vec3f direction = narrow(light.direction);
-    const double outer = std::cos(light.outer_cone);
-    positions.emplace_back(at.x(), at.y(), at.z(), directional ? 0.0f : 1.0f);
-    colours.emplace_back(
-        colour.x(), colour.y(), colour.z(),
-        spot ? static_cast<float>(1 / std::max(std::cos(light.inner_cone) - outer, 1e-4)) : 0.0f);
-    axes.emplace_back(direction.x(), direction.y(), direction.z(), static_cast<float>(outer));
-  }
-  set("light_count", static_cast<int>(positions.size()));
-  if (!positions.empty()) {
-    set("light_position", positions);
-    set("light_colour", colours);
-    set("light_axis", axes);
-  }
-  std::vector<Vec3f> harmonics;
-  for (const Vec3& c : lighting_.harmonics.c) harmonics.push_back(narrow(c));
-  set("environment_harmonics", harmonics);
-  if (lighting_.environment) {
-    binding.textures.push_back({"environment_map", lighting_.environment->texture()});
-    number("environment_last_level", lighting_.environment->levels() - 1);
-  }
-
-  set("base_colour", narrow(material_.base_colour));
-  set("base_bands",
-      std::vector<Vec3f>{narrow(base_bands_[0]), narrow(base_bands_[1]), narrow(base_bands_[2])});
-  const FibreMoments& m = moments(material_.base);
-  const bool maximum = material_.base == LayeredMaterial::Base::maximum_normal;
-  set("base_fibres", material_.base != LayeredMaterial::Base::lambert ? 1 : 0);
-  // (|l across the fibre| + x n.l) y, and the moments over the zeroth.
-  set("base_lobe", Vec2f(maximum ? 0.0f : 1.0f, static_cast<float>((maximum ? 1 : 1 / kPi) / m.one)));
-  set("base_moments", narrow(Vec3(m.xx, m.yy, m.zz) / m.one));
-  number("base_moment_z", m.z / m.one);
-  axis("base_axis", material_.base_azimuth);
-  number("simple_fuzziness", material_.simple_fuzziness);
-
-  if (material_.specular) {
-    const GgxParameters& ggx = *material_.specular;
-    number("ggx_alpha_t", std::max(ggx.roughness.alpha_t, kMinimumAlpha));
-    number("ggx_alpha_b", std::max(ggx.roughness.alpha_b, kMinimumAlpha));
-    axis("ggx_axis", ggx.roughness.azimuth);
-    set("ggx_f0", narrow(ggx.f0));
-    set("ggx_lobe_samples", lighting_.environment ? lobe_samples() : 0);
-    number("ggx_mean_albedo", ggx.energy_compensation ? mean_albedo_ : 1);
-    binding.textures.push_back({"ggx_albedo_table", albedo_.texture()});
-  }
-
-  set("fuzz_visibility",
-      Vec4f(static_cast<float>(kVisibilitySlides[0]), static_cast<float>(kVisibilitySlides[1]),
-            static_cast<float>(kVisibilitySlides[2]), static_cast<float>(kVisibilitySlides[3])));
-  if (material_.fuzz) {
-    const FuzzParameters& fuzz = *material_.fuzz;
-    number("fuzz_density", fuzz.density);
-    number("fuzz_alpha", fuzz.alpha);
-    // Schlick: k, and everything of the lobe that does not depend on directions.
-    set("fuzz_schlick",
-        Vec2f(static_cast<float>(fuzz.k),
-              static_cast<float>(fuzz_schlick_normalisation(fuzz.k) * (1 - fuzz.k * fuzz.k) / (4 * kPi))));
-    set("fuzz_fibre", narrow(fuzz.fibre()));
-    axis("fuzz_axis", fuzz.azimuth);
-    set("fuzz_colour", narrow(fuzz.colour));
-    number("fuzz_smoothing", material_.fuzz_smoothing);
-    number("fuzz_down_weight", material_.fuzz_scattered_down ? 1 : 0);
-    if (material_.fuzz_slides) {
-      const std::vector<double>& c = fuzz_polynomial_.coefficients;
-      set("fuzz_down_low", narrow({c[0], c[1], c[2]}));
-      set("fuzz_down_high", narrow({c[3], c[4], c[5]}));
-    }
-    set("fuzz_table_along", Vec2f(fuzz_table_.ambient.along_coordinate().cast<float>()));
-    binding.textures.push_back({"fuzz_down_table", fuzz_table_.scattered_down.texture(true)});
-    binding.textures.push_back({"fuzz_ambient_table", fuzz_table_.ambient.texture()});
-  }
-  return binding;
 }
 
 }  // namespace sateen

@@ -11,6 +11,7 @@
 #include "sateen/brdf/fuzz.h"
 #include "sateen/brdf/fuzz_approximations.h"
 #include "sateen/brdf/fuzz_table.h"
+#include "sateen/brdf/fuzz_tilt_table.h"
 #include "sateen/brdf/ggx.h"
 #include "sateen/brdf/hemisphere_table.h"
 #include "sateen/core/appearance.h"
@@ -19,6 +20,19 @@
 #include "sateen/light/spherical_harmonics.h"
 
 namespace sateen {
+
+struct FibreMoments;
+
+/// Fibres that change from point to point, brushed pile: x / 2 + 1/2 and y / 2 + 1/2 of the unit fibre in the
+/// shading frame, the end that points out of the surface, in the first two channels, like a normal map.
+/// Repeats over the mesh's UVs, v up.
+struct FibreMap {
+  std::shared_ptr<const Image> picture;
+  Vec2 repeat{1, 1};
+
+  /// Read bilinearly and made unit; z >= 0, and not quite upright (kUprightTilt).
+  Vec3 fibre(const Vec2& uv) const;
+};
 
 /// A material of analytic layers, from the bottom: diffuse base, GGX reflection, fuzz. docs/materials.md has
 /// its file.
@@ -37,6 +51,7 @@ struct LayeredMaterial {
   int lobe_samples = 0;
 
   std::optional<FuzzParameters> fuzz;
+  std::optional<FibreMap> fuzz_fibres;  ///< in place of the fuzz's tilt and azimuth; not with fuzz_slides
   bool fuzz_slides = false;         ///< the slides' polynomials in place of the table (fuzz_approximations.h)
   bool fuzz_scattered_down = true;  ///< off: P_s = 0 under the base layer, the slides' comparison
   /// Turns the fuzz's normal from the shading normal (0) to the mesh's without normal map (1): softer fuzz
@@ -82,40 +97,48 @@ class LayeredAppearance : public Appearance {
   const Lighting& lighting() const { return lighting_; }
 
  private:
-  /// Axes of the shading frame in view space.
-  struct Frame {
-    Vec3 tangent, bitangent, normal;
-    Vec3 into(const Vec3& w) const { return {w.dot(tangent), w.dot(bitangent), w.dot(normal)}; }
-    Vec3 out_of(const Vec3& w) const { return w.x() * tangent + w.y() * bitangent + w.z() * normal; }
-  };
-  /// A shading frame and the view in it, never below the horizon. The fuzz has one of its own, whose normal
-  /// may be smoother.
+  /// A shading frame (tangent, bitangent, normal in view space) and the view in it, never below the horizon.
   struct Seen {
-    Frame frame;
+    Mat3 frame;
     Vec3 view;
+    Vec3 into(const Vec3& w) const { return frame.transpose() * w; }
   };
+  /// The fuzz at one point: a frame of its own, whose normal may be smoother, the fibres there, and the
+  /// Legendre coefficients of the light of the surroundings that a diffuse base receives, per channel.
+  struct Layer : Seen {
+    FuzzParameters fuzz;
+    std::array<Vec3, 3> bands;
+  };
+  using Bands = std::array<double, 3>;
 
+  static const FibreMoments& moments(LayeredMaterial::Base base);
   static Seen seen(const Surface& surface, const Vec3& normal);
-  double scattered_down(const Vec3& light) const;
-  Vec3 direct(const Vec3& light, const Seen& base, const Seen& layer) const;
-  Vec3 simple_fuzz(const Vec3& light, const Vec3& view) const;
-  Vec3 received(const Vec3& normal) const;
-  Vec3 diffuse_surroundings(const Frame& frame) const;
-  Vec3 reflected_surroundings(const Seen& base) const;
-  Vec3 fuzz_surroundings(const Seen& layer) const;
-  Vec3 surroundings(const Seen& base, const Seen& layer) const;
+  Layer layer(const Surface& surface, const Seen& base) const;
+  std::array<Vec3, 3> bands_under_fuzz(const Bands& passing, const Bands& scattered) const;
   std::array<Vec3, 3> base_bands() const;
+  double scattered_down(const FuzzParameters& fuzz, const Vec3& light) const;
+  Vec3 direct(const Vec3& light, const Seen& base, const Layer& layer) const;
+  Vec3 simple_fuzz(const Vec3& light, const Vec3& view) const;
+  Vec3 received(const Vec3& normal, const Layer& layer) const;
+  Vec3 diffuse_surroundings(const Mat3& frame, const Layer& layer) const;
+  Vec3 reflected_surroundings(const Seen& base, const Layer& layer) const;
+  Vec3 fuzz_surroundings(const Layer& layer) const;
+  Vec3 surroundings(const Seen& base, const Layer& layer) const;
   int lobe_samples() const;
+  void bind_lights(ShaderBinding& binding) const;
+  void bind_base(ShaderBinding& binding) const;
+  void bind_reflection(ShaderBinding& binding) const;
+  void bind_fuzz(ShaderBinding& binding) const;
 
-  LayeredMaterial material_;
+  LayeredMaterial material_;  ///< with alpha_t >= alpha_b
   Lighting lighting_;
   HemisphereTable albedo_;  ///< GGX: x scale, y bias of a view in the frame of the roughness' axis
   double mean_albedo_ = 1;
   bool keep_lights_ = true;  ///< off for the stand-in lamp, which goes when an environment is set
-  FuzzTable fuzz_table_;
+  FuzzTable fuzz_table_;     ///< of the one fibre, unless there is a map
+  std::shared_ptr<const FuzzTiltTable> fuzz_tilts_;
   ScatteredDownPolynomial fuzz_polynomial_;
-  /// Legendre coefficients of the light of the surroundings that a diffuse base receives, per channel.
-  std::array<Vec3, 3> base_bands_;
+  std::array<Vec3, 3> base_bands_;  ///< of the one fibre
 };
 
 }  // namespace sateen

@@ -7,6 +7,7 @@
 #include "sateen/brdf/layered.h"
 #include "sateen/brdf/parameters.h"
 #include "sateen/core/error.h"
+#include "sateen/io/image.h"
 #include "sateen/light/environment.h"
 
 namespace sateen {
@@ -77,6 +78,19 @@ void read_base(JsonObject& json, LayeredMaterial& material) {
   json.finish();
 }
 
+FibreMap read_fibres(JsonObject& json, const std::filesystem::path& folder) {
+  const std::filesystem::path path = folder / json.text("fibres", "");
+  Image picture = read_data(path);
+  if (picture.channels < 2)
+    throw Error(fmt::format("{}: a map of fibres has two channels or more", path.string()));
+  if (json.flag("green_down", false)) {
+    for (int y = 0; y < picture.height; ++y) {
+      for (int x = 0; x < picture.width; ++x) picture.at(x, y, 1) = 1 - picture.at(x, y, 1);
+    }
+  }
+  return {std::make_shared<const Image>(std::move(picture)), json.pair("repeat", {1, 1}, {1e-3, 1e4})};
+}
+
 }  // namespace
 
 std::unique_ptr<Appearance> LayeredAppearance::read(const std::filesystem::path& path) {
@@ -108,6 +122,13 @@ std::unique_ptr<LayeredAppearance> LayeredAppearance::parse(const std::string& t
     JsonObject fuzz = section("fuzz");
     material.fuzz = read_fuzz(fuzz);
     material.fuzz_slides = fuzz.choice("approximation", "table", approximations) == "slides";
+    if (fuzz.has("fibres")) {
+      for (const char* key : {"tilt", "azimuth"}) {
+        if (fuzz.has(key)) fuzz.fail(key, "left out where \"fibres\" is given");
+      }
+      if (material.fuzz_slides) fuzz.fail("approximation", "\"table\" where \"fibres\" is given");
+      material.fuzz_fibres = read_fibres(fuzz, path.parent_path());
+    }
     material.fuzz_scattered_down = fuzz.flag("scattered_down", true);
     material.fuzz_smoothing = fuzz.number("normal_smoothing", 0, {0, 1});
     fuzz.finish();

@@ -157,6 +157,7 @@ std::vector<SphereNode> hemisphere_nodes(const Vec3& axis, std::span<const doubl
   const ConeCoordinates coordinates(axis, cones);
   const GaussRule& rule = gauss_rule(order);
   std::vector<SphereNode> nodes;
+  nodes.reserve((coordinates.breaks.size() - 1) * rule.nodes.size() * rule.nodes.size());
   for (std::size_t i = 0; i + 1 < coordinates.breaks.size(); ++i) {
     const double from = coordinates.breaks[i];
     const double length = coordinates.breaks[i + 1] - from;

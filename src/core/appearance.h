@@ -19,6 +19,7 @@ struct Surface {
   Vec3 normal{0, 0, 1};       ///< view space, unit
   Vec3 mesh_normal{0, 0, 1};  ///< the same before any normal map
   Vec3 tangent{1, 0, 0};      ///< view space, unit, orthogonal to the normal
+  double side = 1;            ///< 1 on the front; -1 on the back, whose normal is turned to the viewer
   double bitangent_sign = 1;  ///< bitangent = bitangent_sign * cross(normal, tangent)
   Vec3 view{0, 0, 1};         ///< view space, unit, from the point towards the eye
   Vec3 eye_normal{0, 0,

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <span>
+
 #include "sateen/core/appearance.h"
 #include "sateen/core/image.h"
 
@@ -11,5 +13,9 @@ namespace sateen {
 /// it.
 TextureData picture_texture(const Image& picture, TextureData::Wrap wrap = TextureData::Wrap::clamp,
                             bool generate_mipmaps = false);
+
+/// What the GPU reads of a repeating picture_texture without mipmaps: bilinear at `uv`, v up. `out` has no
+/// more entries than the picture has channels.
+void sample_repeating(const Image& picture, const Vec2& uv, std::span<double> out);
 
 }  // namespace sateen

@@ -12,6 +12,7 @@ std::optional<Surface> surface_at(const Frame& frame, int x, int y) {
   surface.material = material - 1;
   surface.normal = xyz(images.normal, x, y);
   surface.mesh_normal = xyz(images.mesh_normal, x, y);
+  surface.side = images.mesh_normal.at(x, y, 3);
   surface.occlusion = images.normal.at(x, y, 3);
   surface.tangent = xyz(images.tangent, x, y);
   surface.bitangent_sign = images.tangent.at(x, y, 3);

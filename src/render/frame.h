@@ -15,7 +15,7 @@ struct SurfaceImages {
   Image tangent;           ///< x, y, z in view space, sign of the bitangent
   Image eye_normal;        ///< x, y, z in the eye frame, k
   Image uv_and_curvature;  ///< u, v, curvature, 1
-  Image mesh_normal;       ///< x, y, z in view space, before any normal map, 0
+  Image mesh_normal;       ///< x, y, z in view space, before any normal map, and the side: 1 front, -1 back
 };
 
 /// The first three channels of a pixel.

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "sateen/texture/bc7_fit.h"
+#include "sateen/texture/bc7_partitions.h"
 #include "sateen/texture/bc7_tables.h"
 
 namespace sateen {
@@ -41,33 +42,38 @@ void settle_anchor(SubsetCode& code, std::size_t anchor, int index_bits) {
   for (int& i : code.index) i = top - i;
 }
 
-/// 1 for the texels of a subset of a two-subset partition, 0 for the others.
-const Plane& subset_plane(int partition, int subset) {
-  static const auto kPlanes = [] {
-    std::array<std::array<Plane, 2>, 64> planes{};
-    for (std::size_t p = 0; p < 64; ++p) {
-      for (std::size_t i = 0; i < 16; ++i) planes[p][(bc7::kPartition2[p] >> i) & 1][i] = 1;
-    }
-    return planes;
-  }();
-  return kPlanes[static_cast<std::size_t>(partition)][static_cast<std::size_t>(subset)];
-}
-
 /// A whole block in one of the modes, ready to be written.
 struct BlockCode {
   int mode = -1;
   int partition = 0;
   int rotation = 0;
   int index_mode = 0;
-  std::array<SubsetCode, 2> part;  ///< the subsets; in modes 4 and 5 colour and scalar
+  std::array<SubsetCode, 3> part;  ///< the subsets; in modes 4 and 5 colour and scalar
   float error = std::numeric_limits<float>::max();
 };
 
-constexpr SubsetFormat kMode1{0, 3, 6, PBits::shared, 3};
-constexpr SubsetFormat kMode3{0, 3, 7, PBits::each, 2};
+/// A mode whose texels lie in two or three subsets with lines of their own.
+struct PartitionedMode {
+  int mode;
+  int subsets;
+  int partition_bits;
+  SubsetFormat format;
+};
+
+constexpr PartitionedMode kMode0{0, 3, 4, {0, 3, 4, PBits::each, 3}};
+constexpr PartitionedMode kMode1{1, 2, 6, {0, 3, 6, PBits::shared, 3}};
+constexpr PartitionedMode kMode2{2, 3, 6, {0, 3, 5, PBits::none, 2}};
+constexpr PartitionedMode kMode3{3, 2, 6, {0, 3, 7, PBits::each, 2}};
+constexpr PartitionedMode kMode7{7, 2, 6, {0, 4, 5, PBits::each, 2}};
 constexpr SubsetFormat kMode6{0, 4, 7, PBits::each, 4};
 constexpr SubsetFormat kMode6Opaque{0, 3, 7, PBits::each, 4};
-constexpr SubsetFormat kMode7{0, 4, 5, PBits::each, 2};
+
+const PartitionedMode& partitioned(int mode) {
+  for (const PartitionedMode* candidate : {&kMode0, &kMode1, &kMode2, &kMode3}) {
+    if (candidate->mode == mode) return *candidate;
+  }
+  return kMode7;
+}
 
 void try_mode6(const Planes& texels, bool alpha, bool thorough, BlockCode& best) {
   Plane all;
@@ -75,7 +81,7 @@ void try_mode6(const Planes& texels, bool alpha, bool thorough, BlockCode& best)
   SubsetCode code = fit(texels, all, alpha ? kMode6 : kMode6Opaque, thorough);
   if (code.error >= best.error) return;
   if (!alpha) code.ends.stored[0][3] = code.ends.stored[1][3] = 127;
-  best = {6, 0, 0, 0, {code, {}}, code.error};
+  best = {6, 0, 0, 0, {code, {}, {}}, code.error};
 }
 
 /// Modes 4 and 5: one channel (`scalar`) has its own line and indices.
@@ -94,7 +100,7 @@ void try_rotation(const Planes& texels, bool alpha, int mode, int rotation, int 
   const SubsetCode c = fit(turned, all, colour, thorough);
   if (c.error >= best.error) return;
   const SubsetCode s = fit(turned, all, scalar, thorough);
-  if (c.error + s.error < best.error) best = {mode, 0, rotation, index_mode, {c, s}, c.error + s.error};
+  if (c.error + s.error < best.error) best = {mode, 0, rotation, index_mode, {c, s, {}}, c.error + s.error};
 }
 
 /// Mode 5 holds any constant colour exactly: for each 8-bit value there are two 7-bit ends whose step at
@@ -128,72 +134,12 @@ BlockCode constant_block(const std::array<std::uint8_t, 4>& texel) {
   return code;
 }
 
-/// Residual of the best line through each subset of every partition, sorted by it: a cheap guess of what a
-/// two-subset mode can reach.
-struct PartitionGuess {
-  float residual;
-  int partition;
-};
-
-std::array<PartitionGuess, 64> guess_partitions(const Planes& texels, int channels) {
-  // Sums of the 14 monomials of degree 1 and 2 over the second subset; the first is the total less those.
-  constexpr std::size_t kMost = 14;
-  std::array<Plane, kMost> monomials{};
-  std::size_t n = 0;
-  const auto c_count = static_cast<std::size_t>(channels);
-  for (std::size_t c = 0; c < c_count; ++c) monomials[n++] = texels[c];
-  for (std::size_t a = 0; a < c_count; ++a) {
-    for (std::size_t b = a; b < c_count; ++b) {
-      for (std::size_t i = 0; i < 16; ++i) monomials[n][i] = texels[a][i] * texels[b][i];
-      ++n;
-    }
-  }
-  std::array<float, kMost> total{};
-  for (std::size_t m = 0; m < n; ++m) {
-    for (const float v : monomials[m]) total[m] += v;
-  }
-  const auto residual = [&](const std::array<float, kMost>& sums, float count) {
-    std::array<std::array<float, 4>, 4> cov{};
-    std::size_t at = c_count;
-    float trace = 0;
-    for (std::size_t a = 0; a < c_count; ++a) {
-      for (std::size_t b = a; b < c_count; ++b) {
-        cov[a][b] = cov[b][a] = sums[at++] - sums[a] * sums[b] / count;
-      }
-      trace += cov[a][a];
-    }
-    // The largest eigenvalue is at most the Frobenius norm, and close to it where one line fits.
-    float squared = 0;
-    for (const auto& row : cov) {
-      for (const float v : row) squared += v * v;
-    }
-    return std::max(trace - std::sqrt(squared), 0.0f);
-  };
-  std::array<PartitionGuess, 64> guesses{};
-  for (int partition = 0; partition < 64; ++partition) {
-    const Plane& inside = subset_plane(partition, 1);
-    float count = 0;
-    for (const float w : inside) count += w;
-    std::array<float, kMost> second{};
-    std::array<float, kMost> first{};
-    for (std::size_t m = 0; m < n; ++m) {
-      float sum = 0;
-      for (std::size_t i = 0; i < 16; ++i) sum += monomials[m][i] * inside[i];
-      second[m] = sum;
-      first[m] = total[m] - sum;
-    }
-    guesses[static_cast<std::size_t>(partition)] = {residual(first, 16 - count) + residual(second, count),
-                                                    partition};
-  }
-  return guesses;
-}
-
-void try_two_subsets(const Planes& texels, int mode, const SubsetFormat& format, int partition, bool thorough,
-                     BlockCode& best) {
-  BlockCode code{mode, partition, 0, 0, {}, 0};
-  for (int subset = 0; subset < 2; ++subset) {
+void try_partition(const Planes& texels, const PartitionedMode& mode, int partition, bool thorough,
+                   BlockCode& best) {
+  BlockCode code{mode.mode, partition, 0, 0, {}, 0};
+  for (int subset = 0; subset < mode.subsets; ++subset) {
     SubsetCode& part = code.part[static_cast<std::size_t>(subset)];
-    part = fit(texels, subset_plane(partition, subset), format, thorough);
+    part = fit(texels, subset_plane(mode.subsets, partition, subset), mode.format, thorough);
     code.error += part.error;
     if (code.error >= best.error) return;
   }
@@ -225,7 +171,7 @@ void write(BlockCode code, std::span<std::byte, 16> out) {
     bits.put(code.rotation, 2);
     if (code.mode == 4) bits.put(code.index_mode, 1);
     put_endpoints(bits, std::span(code.part).first(1), 0, 3, code.mode == 5 ? 7 : 5);
-    put_endpoints(bits, std::span(code.part).last(1), 3, 1, code.mode == 5 ? 8 : 6);
+    put_endpoints(bits, std::span(code.part).subspan(1, 1), 3, 1, code.mode == 5 ? 8 : 6);
     // The two-bit indices come first.
     const bool colour_first = colour_index == 2;
     put_indices(bits, code.part[colour_first ? 0 : 1].index, 2);
@@ -237,21 +183,22 @@ void write(BlockCode code, std::span<std::byte, 16> out) {
     bits.put(code.part[0].ends.p[1], 1);
     put_indices(bits, code.part[0].index, 4);
   } else {
-    const SubsetFormat& format = code.mode == 1 ? kMode1 : code.mode == 3 ? kMode3 : kMode7;
-    const auto partition = static_cast<std::size_t>(code.partition);
-    const std::size_t anchor = bc7::kAnchor2[partition];
-    settle_anchor(code.part[0], 0, format.index_bits);
-    settle_anchor(code.part[1], anchor, format.index_bits);
-    bits.put(code.partition, 6);
-    put_endpoints(bits, code.part, 0, static_cast<std::size_t>(format.channels), format.bits);
-    for (const SubsetCode& part : code.part) {
-      bits.put(part.ends.p[0], 1);
-      if (format.p == PBits::each) bits.put(part.ends.p[1], 1);
+    const PartitionedMode& mode = partitioned(code.mode);
+    const auto parts = std::span(code.part).first(static_cast<std::size_t>(mode.subsets));
+    for (int subset = 0; subset < mode.subsets; ++subset) {
+      settle_anchor(parts[static_cast<std::size_t>(subset)], anchor_of(mode.subsets, code.partition, subset),
+                    mode.format.index_bits);
+    }
+    bits.put(code.partition, mode.partition_bits);
+    put_endpoints(bits, parts, 0, static_cast<std::size_t>(mode.format.channels), mode.format.bits);
+    for (const SubsetCode& part : parts) {
+      if (mode.format.p != PBits::none) bits.put(part.ends.p[0], 1);
+      if (mode.format.p == PBits::each) bits.put(part.ends.p[1], 1);
     }
     for (std::size_t i = 0; i < 16; ++i) {
-      const std::size_t subset = (bc7::kPartition2[partition] >> i) & 1;
-      const bool anchored = i == (subset == 0 ? 0 : anchor);
-      bits.put(code.part[subset].index[i], anchored ? format.index_bits - 1 : format.index_bits);
+      const std::size_t subset = subset_of(mode.subsets, code.partition, i);
+      const bool anchored = i == anchor_of(mode.subsets, code.partition, static_cast<int>(subset));
+      bits.put(parts[subset].index[i], mode.format.index_bits - (anchored ? 1 : 0));
     }
   }
   bits.store(out);
@@ -284,17 +231,24 @@ void encode_bc7_block(const BlockRgba8& block, const Bc7Options& options, std::s
     try_rotation(texels, exact_alpha, 5, rotation, 0, thorough, best);
   }
   if (options.effort != Bc7Effort::fast && !good_enough(best)) {
-    auto guesses = guess_partitions(texels, alpha ? 4 : 3);
-    const std::size_t tries = options.effort == Bc7Effort::best ? 16 : 3;
-    std::ranges::partial_sort(guesses, guesses.begin() + static_cast<std::ptrdiff_t>(tries), {},
-                              &PartitionGuess::residual);
-    for (std::size_t i = 0; i < tries && guesses[i].residual < best.error; ++i) {
-      if (alpha) {
-        try_two_subsets(texels, 7, kMode7, guesses[i].partition, thorough, best);
-      } else {
-        try_two_subsets(texels, 1, kMode1, guesses[i].partition, thorough, best);
-        try_two_subsets(texels, 3, kMode3, guesses[i].partition, thorough, best);
+    const std::size_t tries = thorough ? 16 : 3;
+    const auto try_shapes = [&](int subsets, int partitions, std::initializer_list<PartitionedMode> modes) {
+      const int channels = alpha ? 4 : 3;
+      for (const PartitionGuess& guess : guess_partitions(texels, channels, subsets, partitions, tries)) {
+        if (guess.residual >= best.error) return;
+        for (const PartitionedMode& mode : modes)
+          try_partition(texels, mode, guess.partition, thorough, best);
       }
+    };
+    if (alpha) {
+      try_shapes(2, 64, {kMode7});
+    } else {
+      try_shapes(2, 64, {kMode1, kMode3});
+      // Three lines have coarse ends or few steps: they pay where two are far off (mean squared error above
+      // 2).
+      const float coarse = thorough ? 0.0f : 96.0f;
+      if (best.error > coarse) try_shapes(3, 64, {kMode2});
+      if (best.error > coarse) try_shapes(3, 16, {kMode0});
     }
   }
   if (options.effort == Bc7Effort::best && !good_enough(best)) {

@@ -6,29 +6,14 @@
 #include <cmath>
 #include <cstring>
 
+#include "sateen/brdf/ggx_surroundings.h"
 #include "sateen/core/parallel.h"
+#include "sateen/core/picture_texture.h"
 
 namespace sateen {
 namespace {
 
 constexpr double kLowestView = 1e-3;  // as layered.cpp lifts views behind the rim
-
-/// Reads a repeating picture bilinearly where uv says; v runs up. `out` has no more entries than channels.
-void sample_repeating(const Image& image, const Vec2& uv, std::span<double> out) {
-  const double x = (uv.x() - std::floor(uv.x())) * image.width - 0.5;
-  const double y = (1 - (uv.y() - std::floor(uv.y()))) * image.height - 0.5;
-  const auto column = static_cast<int>(std::floor(x));
-  const auto row = static_cast<int>(std::floor(y));
-  std::ranges::fill(out, 0.0);
-  for (int j = 0; j < 2; ++j) {
-    for (int i = 0; i < 2; ++i) {
-      const double weight = (i == 0 ? 1 - (x - column) : x - column) * (j == 0 ? 1 - (y - row) : y - row);
-      const auto texel =
-          image.pixel((column + i + image.width) % image.width, (row + j + image.height) % image.height);
-      for (std::size_t c = 0; c < out.size(); ++c) out[c] += weight * texel[c];
-    }
-  }
-}
 
 /// All levels as halves, rows from the bottom; missing channels are 0, alpha 1.
 std::shared_ptr<const TextureData> texture_of(const std::vector<Image>& levels) {
@@ -128,7 +113,8 @@ Vec3 MappedAppearance::evaluate(const Surface& surface) const {
   sample_repeating(maps_.mips.anisotropy[0], uv, channels);
   Vec3 n(2 * xy[0] - 1, 2 * xy[1] - 1, 0);
   n.z() = std::sqrt(std::max(1 - n.squaredNorm(), 0.0));
-  if (maps_.mips.green_down) n.y() = -n.y();
+  n.x() *= surface.side;  // from behind, bumps are dents
+  n.y() *= maps_.mips.green_down ? -surface.side : surface.side;
   const AnisotropicRoughness lobe =
       roughness_from_matrix(decode_anisotropy({channels[0], channels[1], channels[2]}, maps_.mips.encoding));
 
@@ -154,29 +140,9 @@ Vec3 MappedAppearance::evaluate(const Surface& surface) const {
     }
   }
   if (!lighting.environment) return sum;
-
-  // As LayeredAppearance: half vectors at the quantiles of the slopes that the narrow lobe lacks along x.
-  const int count = maps_.lobe_samples;
-  const double narrow = lobe.alpha_b * lobe.alpha_b;
-  const double extra = lobe.alpha_t * lobe.alpha_t - narrow;
-  const double blur = std::sqrt(narrow + extra / (count * count));
-  const double view_masking = 1 + ggx_lambda(roughness, view);
-  Vec3 seen = Vec3::Zero();
-  double total = 0;
-  for (int i = 0; i < count; ++i) {
-    const double c = (2 * i + 1.0) / count - 1;
-    const Vec3 half = Vec3(std::sqrt(extra) * c / std::sqrt(1 - c * c), 0, 1).normalized();
-    const double cosine = view.dot(half);
-    const Vec3 light = 2 * cosine * half - view;
-    if (cosine <= 0 || light.z() <= 1e-4) continue;
-    const double weight = cosine / half.z() * view_masking / (view_masking + ggx_lambda(roughness, light));
-    seen += weight * lighting.environment->radiance(frame * light, blur);
-    total += weight;
-  }
-  if (!(total > 0)) return sum;
+  const Vec3 seen = ggx_surroundings(*lighting.environment, lobe, frame, view, maps_.lobe_samples);
   const GgxAlbedo albedo = albedo_(lobe.alpha_t, lobe.alpha_b, view);
-  return sum + surface.occlusion *
-                   (seen / total).cwiseProduct(maps_.f0 * albedo.scale + Vec3::Constant(albedo.bias));
+  return sum + surface.occlusion * seen.cwiseProduct(maps_.f0 * albedo.scale + Vec3::Constant(albedo.bias));
 }
 
 ShaderBinding MappedAppearance::shader() const {

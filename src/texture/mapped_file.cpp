@@ -15,23 +15,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// One number or [x, y].
-Vec2 pair(JsonObject& json, const std::string& key, const Vec2& fallback, double low, double high) {
-  if (!json.has(key)) return fallback;
-  const nlohmann::json& value = json.raw(key);
-  const std::string right = fmt::format("a number or [x, y] in [{}, {}]", low, high);
-  std::array<double, 2> numbers{};
-  for (std::size_t i = 0; i < 2; ++i) {
-    const bool listed = value.is_array() && value.size() == 2;
-    if (!listed && !value.is_number()) json.fail(key, right);
-    const nlohmann::json& entry = listed ? value[i] : value;
-    if (!entry.is_number()) json.fail(key, right);
-    numbers[i] = entry.get<double>();
-    if (!(numbers[i] >= low && numbers[i] <= high)) json.fail(key, right);
-  }
-  return {numbers[0], numbers[1]};
-}
-
 /// Pictures, filtered here.
 LobeMips filtered(JsonObject& json, const fs::path& normals, const fs::path& anisotropy,
                   const fs::path& folder) {
@@ -44,7 +27,7 @@ LobeMips filtered(JsonObject& json, const fs::path& normals, const fs::path& ani
   files.encoding = anisotropy_encoding_from_name(json.choice("encoding", "root", encodings));
   files.normal_format.green_down = json.flag("green_down", false);
   if (json.has("roughness_map")) files.roughness = folder / json.text("roughness_map", "");
-  const Vec2 roughness = pair(json, "roughness", {0.5, 0.5}, 0, 1);
+  const Vec2 roughness = json.pair("roughness", {0.5, 0.5}, {0, 1});
   files.constant = from_uv({roughness.x(), roughness.y(), 0});
   ChainOptions options;
   options.filter.method = filter_method_from_name(json.choice("method", "sggx-variance", methods));
@@ -90,7 +73,7 @@ std::unique_ptr<Appearance> MappedAppearance::read(const fs::path& path) {
         fmt::format("{}: \"normals\" and \"anisotropy\" are both .ktx2 or both pictures", path.string()));
   }
   maps.mips = stored ? read_lobe_mips(normals, anisotropy) : filtered(json, normals, anisotropy, folder);
-  maps.repeat = pair(json, "repeat", {1, 1}, 1e-3, 1e4);
+  maps.repeat = json.pair("repeat", {1, 1}, {1e-3, 1e4});
   maps.f0 = json.colour("f0", maps.f0);
   maps.lobe_samples = static_cast<int>(json.number("lobe_samples", maps.lobe_samples, {1, 64}));
   json.finish();

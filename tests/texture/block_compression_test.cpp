@@ -80,6 +80,22 @@ TEST(Bc7, EveryPartitionDecodesAsItWasMeant) {
   }
 }
 
+TEST(Bc7, EveryPartitionOfThreeDecodesAsItWasMeant) {
+  // Three colours far apart, each with a little line of its own: two lines are far from holding them.
+  for (std::size_t p = 0; p < 64; ++p) {
+    Pixels rgba(64);
+    for (std::size_t i = 0; i < 16; ++i) {
+      const auto part = (bc7::kPartition3[p] >> (2 * i)) & 3U;
+      const int t = static_cast<int>(i * 7 % 16);
+      const std::array<std::array<int, 3>, 3> colours = {
+          {{230 - t, 40 + t, 30}, {30 + t, 220 - t, 60 + t}, {60, 50 + t, 235 - t}}};
+      for (std::size_t c = 0; c < 3; ++c) rgba[i * 4 + c] = static_cast<std::uint8_t>(colours[part][c]);
+      rgba[i * 4 + 3] = 255;
+    }
+    EXPECT_GT(psnr(rgba, encode_and_decode(BlockFormat::bc7, rgba, 4, 4), 3), 36) << "partition " << p;
+  }
+}
+
 TEST(Bc7, KeepsAlphaWhenItIsData) {
   const Pixels rgba = picture(64, 64);
   Bc7Options options;

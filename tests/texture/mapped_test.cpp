@@ -4,6 +4,8 @@
 
 #include <gmock/gmock.h>
 
+#include "brdf/random_directions.h"
+#include "sateen/core/direction.h"
 #include "sateen/core/error.h"
 #include "sateen/io/image.h"
 #include "sateen/render/registry.h"
@@ -12,6 +14,7 @@
 #include "support/files.h"
 #include "support/rendering.h"
 #include "support/shapes.h"
+#include "support/sky.h"
 
 namespace sateen {
 namespace {
@@ -148,13 +151,96 @@ TEST(Mapped, FlatMapsUnderLampsAreTheLayeredMaterial) {
   }
 }
 
+/// A map that is the same lobe everywhere on a flat surface.
+MappedAppearance::Maps one_lobe(const AnisotropicRoughness& lobe, const Vec3& f0) {
+  MappedAppearance::Maps maps;
+  maps.mips.normals = {Image(1, 1, 2, 0.5f)};
+  const Vec3 c = encode_anisotropy(roughness_matrix(lobe), AnisotropyEncoding::root);
+  Image stored(1, 1, 3);
+  stored.set_rgb(0, 0, c.cast<float>());
+  maps.mips.anisotropy = {stored};
+  maps.f0 = f0;
+  return maps;
+}
+
+TEST(Mapped, UnderASkyIsCloseToTheIntegralOfTheBrdf) {
+  // The same lookups as a layered material's, and the same distance from the truth; between the two there is
+  // the albedo by table.
+  std::mt19937 random(5);
+  const Image sky = test::sky();
+  Lighting lighting;
+  lighting.set_environment(sky);
+  const Vec3 f0(0.9, 0.6, 0.3);
+  for (const AnisotropicRoughness& lobe :
+       {AnisotropicRoughness{0.6, 0.15, 0.4}, AnisotropicRoughness{0.3, 0.3, 0},
+        AnisotropicRoughness{0.4, 0.06, 1.2}}) {
+    LayeredMaterial black;
+    black.base_colour = Vec3::Zero();
+    const MappedAppearance maps(one_lobe(lobe, f0), std::make_unique<LayeredAppearance>(black, lighting));
+    black.specular = GgxParameters{lobe, f0, false};
+    black.lobe_samples = 8;
+    const LayeredAppearance layered(black, lighting);
+    double error = 0;
+    double layered_error = 0;
+    double between = 0;
+    constexpr int kViews = 12;
+    for (int i = 0; i < kViews; ++i) {
+      Surface surface;
+      surface.view = test::random_up(random, 0.15);
+      const Vec3 exact =
+          test::summed([&](const Vec3& u) { return ggx_brdf(lobe, f0, u, surface.view); }, sky);
+      const Vec3 a = maps.evaluate(surface);
+      const Vec3 b = layered.evaluate(surface);
+      error += (a - exact).norm() / exact.norm() / kViews;
+      layered_error += (b - exact).norm() / exact.norm() / kViews;
+      between = std::max(between, (a - b).norm() / b.norm());
+    }
+    RecordProperty("layered", std::to_string(layered_error));
+    EXPECT_LT(error, 0.06);
+    EXPECT_LT(between, 0.01);
+  }
+}
+
+TEST(Mapped, BumpsSeenFromBehindAreDents) {
+  // A Lambert sheet under one lamp: the cosine to the normal that the map gives the front, turned around.
+  MappedAppearance::Maps maps = one_lobe({0.5, 0.5, 0}, Vec3::Zero());
+  maps.mips.normals[0].data = {0.5f + 0.5f * 0.3f, 0.5f - 0.5f * 0.2f};
+  Lighting lighting;
+  PunctualLight lamp;
+  lamp.direction = Vec3(0.5, 0.3, 0.8).normalized();
+  lighting.lights = {lamp};
+  LayeredMaterial white;
+  white.base_colour = Vec3::Ones();
+  const MappedAppearance sheet(std::move(maps), std::make_unique<LayeredAppearance>(white, lighting));
+  // The sheet's front looks away: its tangent and bitangent in view space, and its normal towards -z.
+  const Mat3 front = (Mat3() << -Vec3::UnitX(), Vec3::UnitY(), -Vec3::UnitZ()).finished();
+  const Vec3 n(0.3, -0.2, std::sqrt(1 - 0.13));
+  Surface surface;
+  surface.normal = surface.mesh_normal = -front.col(2);
+  surface.tangent = front.col(0);
+  surface.side = -1;
+  surface.bitangent_sign = -1;  // keeps the bitangent where it was
+  ASSERT_LT((surface.bitangent_sign * surface.normal.cross(surface.tangent) - front.col(1)).norm(), 1e-9);
+  const double expected = (-(front * n)).dot(lamp.direction) / kPi;
+  EXPECT_NEAR(sheet.evaluate(surface).x(), expected, 1e-3);
+  // On the GPU, both sides of a sheet that is turned away and to the viewer.
+  for (const double turn : {0.3, kPi - 0.3}) {
+    test::Picture picture;
+    picture.rotation = rotation_xyz({0.2, turn, 0});
+    test::expect_matches_evaluator(test::plane(),
+                                   mapped(adversarial(AnisotropyEncoding::root, false), lamps()), kTolerance,
+                                   {}, picture);
+  }
+}
+
 TEST(Mapped, AlbedoTableIsCloseToTheIntegral) {
   const GgxAlbedoTable table;
   double worst = 0;
   for (const auto& [t, b] : {std::pair{0.05, 0.05}, std::pair{0.3, 0.3}, std::pair{0.5, 0.1},
                              std::pair{0.9, 0.3}, std::pair{0.87, 0.09}}) {
     for (const double cosine : {0.02, 0.05, 0.1, 0.25, 0.5, 0.75, 0.95}) {
-      for (double phi = 0; phi < kPi; phi += 0.3) {
+      for (int turn = 0; turn < 11; ++turn) {
+        const double phi = 0.3 * turn;
         const double sine = std::sqrt(1 - cosine * cosine);
         const Vec3 view(sine * std::cos(phi), sine * std::sin(phi), cosine);
         const GgxAlbedo expected = ggx_albedo({t, b, 0}, view);
@@ -210,6 +296,47 @@ class Weave : public LobeSource {
  private:
   int next_ = 0;
 };
+
+/// Relative error of a far view of the weave against the mean of 16 x 16 close pixels each.
+double far_view_error(FilterMethod method, const Lighting& lighting) {
+  ChainOptions options;
+  options.filter.method = method;
+  Weave source;
+  MappedAppearance::Maps maps;
+  maps.mips = make_lobe_mips(source, options, AnisotropyEncoding::root);
+  maps.repeat = {16, 16};
+  maps.f0 = {0.8, 0.8, 0.8};
+  const Scene scene = test::scene_of(test::plane(), mapped(maps, lighting));
+  const auto picture = [&](int size) {
+    test::Picture p;
+    p.width = p.height = size;
+    p.surfaces = false;
+    return test::render(scene, p).colour;
+  };
+  const Image far = picture(32);
+  const Image truth = resized(picture(512), 32, 32);
+  double error = 0;
+  double total = 0;
+  for (int y = 4; y < 28; ++y) {
+    for (int x = 4; x < 28; ++x) {
+      error += (far.rgb(x, y) - truth.rgb(x, y)).squaredNorm();
+      total += truth.rgb(x, y).squaredNorm();
+    }
+  }
+  return std::sqrt(error / total);
+}
+
+TEST(MappedOnGpu, FarViewsLookLikeTheMeanOfCloseOnes) {
+  // What remains is that the mean of a weave's lobes is not one lobe, and under the sky that the lookups are
+  // themselves approximations, of rough lobes more than of smooth ones. Measured: 0.20 and 0.63 under lamps,
+  // 0.14 and 0.32 under the sky as well.
+  const double lamp = far_view_error(FilterMethod::sggx_variance, lamps());
+  EXPECT_LT(lamp, 0.22);
+  EXPECT_LT(lamp, 0.4 * far_view_error(FilterMethod::naive, lamps()));
+  const double sky = far_view_error(FilterMethod::sggx_variance, surroundings());
+  EXPECT_LT(sky, 0.16);
+  EXPECT_LT(sky, 0.5 * far_view_error(FilterMethod::naive, surroundings()));
+}
 
 TEST(LobeMips, Ktx2ComesBackAsItWasFiltered) {
   const test::TemporaryFolder folder;

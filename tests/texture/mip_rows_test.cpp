@@ -59,6 +59,33 @@ TEST(MipTaps, SumToOneAndStayInside) {
   }
 }
 
+TEST(MipTaps, WrapModesAreWhatPaddingGives) {
+  // A line that is written out on both sides as the mode says, far enough for the kernel, needs no mode.
+  constexpr int kIn = 16;
+  const std::vector<float> line = noise(kIn, 1, 1)[0].values;
+  const auto source = [](MipWrap wrap, int x) {
+    if (wrap == MipWrap::clamp) return std::clamp(x, 0, kIn - 1);
+    const int inside = (x + kIn) % kIn;
+    return wrap == MipWrap::repeat || x == inside ? inside : kIn - 1 - inside;
+  };
+  const auto value = [](const MipTaps& taps, const std::vector<float>& values) {
+    double sum = 0;
+    for (const MipTap& tap : taps) sum += tap.weight * values[static_cast<std::size_t>(tap.source)];
+    return sum;
+  };
+  for (const MipKernel kernel : kKernels) {
+    for (const MipWrap wrap : kWraps) {
+      std::vector<float> padded;
+      for (int x = -kIn; x < 2 * kIn; ++x) padded.push_back(line[static_cast<std::size_t>(source(wrap, x))]);
+      const auto wrapped = mip_taps(kIn, kIn / 2, kernel, wrap);
+      const auto plain = mip_taps(3 * kIn, 3 * kIn / 2, kernel, MipWrap::clamp);
+      for (std::size_t i = 0; i < wrapped.size(); ++i) {
+        EXPECT_NEAR(value(wrapped[i], line), value(plain[i + kIn / 2], padded), 1e-6) << i;
+      }
+    }
+  }
+}
+
 TEST(MipTaps, BoxCoversOddSizesExactly) {
   // 5 texels onto 2: each covers two and a half.
   const auto taps = mip_taps(5, 2, MipKernel::box, MipWrap::repeat);
