@@ -7,6 +7,7 @@
 
 #include <gmock/gmock.h>
 
+#include "brdf/layered_materials.h"
 #include "brdf/random_directions.h"
 #include "sateen/brdf/fibre_diffuse.h"
 #include "sateen/brdf/fuzz_integrals.h"
@@ -15,181 +16,19 @@
 #include "sateen/light/environment.h"
 #include "sateen/render/registry.h"
 #include "support/files.h"
-#include "support/rendering.h"
-#include "support/shapes.h"
 #include "support/sky.h"
 
 namespace sateen {
 namespace {
 
+using test::everything;
+using test::flat;
+using test::fuzzy;
+using test::glossy;
 using test::random_up;
 using test::sky;
 using test::summed;
-
-const Lighting& everything() {
-  static const Lighting shared = [] {
-    Lighting lighting;
-    PunctualLight key;
-    key.direction = Vec3(-0.4, 0.6, 0.7).normalized();
-    PunctualLight point;
-    point.kind = PunctualLight::Kind::point;
-    point.position = {2, 0, -3};
-    point.colour = {2, 3, 4};
-    PunctualLight spot = point;
-    spot.kind = PunctualLight::Kind::spot;
-    spot.position = {-1, 2, -2};
-    spot.direction = Vec3(0.2, -0.4, -0.5).normalized();
-    spot.inner_cone = 0.2;
-    spot.outer_cone = 0.7;
-    lighting.lights = {key, point, spot};
-    lighting.set_environment(sky());
-    return lighting;
-  }();
-  return shared;
-}
-
-Lighting uniform_light() {
-  Lighting lighting;
-  lighting.set_environment(Image(64, 32, 3, 1));
-  return lighting;
-}
-
-LayeredMaterial fuzzy(FuzzPhase phase = FuzzPhase::sggx) {
-  LayeredMaterial material;
-  material.base_colour = {0.3, 0.1, 0.1};
-  material.fuzz = FuzzParameters{};
-  material.fuzz->phase = phase;
-  material.fuzz->alpha = 0.35;
-  material.fuzz->k = 0.6;
-  material.fuzz->tilt = radians(50);
-  material.fuzz->azimuth = radians(30);
-  material.fuzz->colour = {1, 0.6, 0.4};
-  return material;
-}
-
-LayeredMaterial glossy() {
-  LayeredMaterial material;
-  material.specular = GgxParameters{{0.2, 0.6, radians(25)}, {0.9, 0.6, 0.3}, true};
-  return material;
-}
-
-/// A surface point facing the viewer's z axis, seen from `view`.
-Surface flat(const Vec3& view) {
-  Surface surface;
-  surface.view = view;
-  return surface;
-}
-
-// Single precision, half-float environment texels and the driver's filter weights bound what the GPU can do.
-constexpr double kTolerance = 4e-3;
-
-void expect_gpu_agrees(const LayeredMaterial& material) {
-  test::expect_matches_evaluator(
-      test::torus(), std::make_shared<const LayeredAppearance>(material, everything()), kTolerance);
-}
-
-TEST(LayeredOnGpu, FibreDiffuseEqualsTheEvaluator) {
-  LayeredMaterial material;
-  material.base_azimuth = 0.6;
-  for (const auto base : {LayeredMaterial::Base::fibre_diffuse, LayeredMaterial::Base::maximum_normal}) {
-    material.base = base;
-    expect_gpu_agrees(material);
-  }
-}
-
-TEST(LayeredOnGpu, GgxEqualsTheEvaluator) {
-  expect_gpu_agrees(glossy());
-}
-
-TEST(LayeredOnGpu, FuzzEqualsTheEvaluatorWithEveryPhaseFunction) {
-  for (const FuzzPhase phase : {FuzzPhase::sggx, FuzzPhase::sggx_symmetric, FuzzPhase::schlick}) {
-    LayeredMaterial material = fuzzy(phase);
-    expect_gpu_agrees(material);
-    material.fuzz->tilt = 0;
-    expect_gpu_agrees(material);
-  }
-}
-
-TEST(LayeredOnGpu, FuzzOverGlossEqualsTheEvaluator) {
-  LayeredMaterial material = fuzzy();
-  material.specular = glossy().specular;
-  expect_gpu_agrees(material);
-  material.fuzz_scattered_down = false;
-  expect_gpu_agrees(material);
-}
-
-TEST(LayeredOnGpu, TheSlidesFormsEqualTheEvaluator) {
-  LayeredMaterial material = fuzzy();
-  material.fuzz_slides = true;
-  expect_gpu_agrees(material);
-}
-
-/// A tangent-space normal map of waves.
-std::shared_ptr<const TextureData> waves() {
-  auto texture = std::make_shared<TextureData>();
-  texture->format = TextureData::Format::rgba8;
-  texture->width = texture->height = 64;
-  texture->wrap_u = texture->wrap_v = TextureData::Wrap::repeat;
-  std::vector<std::byte> texels;
-  for (int y = 0; y < 64; ++y) {
-    for (int x = 0; x < 64; ++x) {
-      const Vec3 n = Vec3(0.5 * std::sin(x * 0.6), 0.5 * std::cos(y * 0.4), 1).normalized();
-      for (int c = 0; c < 3; ++c) texels.push_back(static_cast<std::byte>(std::lround(255 * (n[c] + 1) / 2)));
-      texels.push_back(std::byte{255});
-    }
-  }
-  texture->levels.push_back(std::move(texels));
-  return texture;
-}
-
-TEST(LayeredOnGpu, FuzzWithSmoothedNormalsEqualsTheEvaluator) {
-  LayeredMaterial material = fuzzy();
-  material.specular = glossy().specular;
-  for (const double smoothing : {0.0, 0.6, 1.0}) {
-    material.fuzz_smoothing = smoothing;
-    Scene scene =
-        test::scene_of(test::torus(), std::make_shared<const LayeredAppearance>(material, everything()));
-    scene.materials[0].normal_map.texture = waves();
-    const Frame frame = test::render(scene, {});
-    const test::Difference difference = test::against_evaluator(frame, scene.materials, kTolerance);
-    EXPECT_GT(difference.pixels, 1000);
-    EXPECT_EQ(difference.failing, 0) << "smoothing " << smoothing << ": " << difference.largest;
-  }
-}
-
-/// Brushed pile: tilts from nearly upright to lying, all azimuths, changing from texel to texel.
-FibreMap brushed() {
-  std::mt19937 random(11);
-  std::uniform_real_distribution<double> value(0, 1);
-  auto picture = std::make_shared<Image>(5, 4, 3);
-  for (int y = 0; y < 4; ++y) {
-    for (int x = 0; x < 5; ++x) {
-      const double sine = std::sin(value(random) * kPi / 2);
-      const double azimuth = 2 * kPi * value(random);
-      picture->set_rgb(x, y,
-                       Vec3f(static_cast<float>(0.5 + 0.5 * sine * std::cos(azimuth)),
-                             static_cast<float>(0.5 + 0.5 * sine * std::sin(azimuth)), 0));
-    }
-  }
-  return {picture, {1, 1}};
-}
-
-TEST(LayeredOnGpu, FuzzWithAMapOfFibresEqualsTheEvaluator) {
-  LayeredMaterial material = fuzzy();
-  material.specular = glossy().specular;
-  material.fuzz_fibres = brushed();
-  for (const FuzzPhase phase : {FuzzPhase::sggx, FuzzPhase::schlick}) {
-    material.fuzz->phase = phase;
-    test::expect_matches_evaluator(
-        test::plane(), std::make_shared<const LayeredAppearance>(material, everything()), kTolerance);
-  }
-}
-
-TEST(LayeredOnGpu, SimpleFuzzEqualsTheEvaluator) {
-  LayeredMaterial material;
-  material.simple_fuzziness = 0.6;
-  expect_gpu_agrees(material);
-}
+using test::uniform_light;
 
 TEST(Layered, AWhiteFurnaceIsWhite) {
   std::mt19937 random(1);

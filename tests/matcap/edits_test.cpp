@@ -141,13 +141,20 @@ TEST(Edits, ColorIntensityAndSilhouetteActOnTheirPart) {
       evaluate_part(rim, Part::low, at60).isApprox(expected * evaluate_part(plain, Part::low, at60), 1e-9));
 }
 
-TEST(Edits, MixedMapsOfDifferentSizesGetTheLargerOnesSizeAndKeepTheirLight) {
+MatcapDecomposition decomposed_jade(int size) {
+  return decompose(test::example_matcap("jade", size), inscribed_disc(size, size), {}, "jade");
+}
+
+/// lead() with the high part of another.
+EditedMatcap with_high_part_of(const MatcapDecomposition& other) {
   const test::TemporaryFolder folder;
-  const MatcapDecomposition jade =
-      decompose(test::example_matcap("jade", 64), inscribed_disc(64, 64), {}, "jade");
-  write_matcap(folder / "jade.ktx2", jade);
-  const EditedMatcap mixed =
-      edited(R"([{"edit": "mix", "part": "high", "from": "jade.ktx2"}])", folder.path());
+  write_matcap(folder / "other.ktx2", other);
+  return edited(R"([{"edit": "mix", "part": "high", "from": "other.ktx2"}])", folder.path());
+}
+
+TEST(Edits, MixedMapsOfDifferentSizesGetTheLargerOnesSizeAndKeepTheirLight) {
+  const MatcapDecomposition jade = decomposed_jade(64);
+  const EditedMatcap mixed = with_high_part_of(jade);
   const std::size_t levels = lead()[Part::low].map.levels.size();
   for (const Part part : kParts) {
     ASSERT_EQ(mixed.matcap[part].map.levels.size(), levels);
@@ -166,11 +173,8 @@ TEST(Edits, MixedMapsOfDifferentSizesGetTheLargerOnesSizeAndKeepTheirLight) {
 
 TEST(Edits, MixTakesAPartFromAnotherMatCapAndBitmapsShine) {
   const test::TemporaryFolder folder;
-  const MatcapDecomposition jade =
-      decompose(test::example_matcap("jade", 96), inscribed_disc(96, 96), {}, "jade");
-  write_matcap(folder / "jade.ktx2", jade);
-  const EditedMatcap mixed =
-      edited(R"([{"edit": "mix", "part": "high", "from": "jade.ktx2"}])", folder.path());
+  const MatcapDecomposition jade = decomposed_jade(96);
+  const EditedMatcap mixed = with_high_part_of(jade);
   const Vec3 n = normal_on_disc({0.6, 0.3});
   EXPECT_TRUE(
       evaluate_part(mixed, Part::high, n).isApprox(evaluate_part(unedited(jade), Part::high, n), 2e-3));

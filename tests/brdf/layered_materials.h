@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: MIT
+// Materials and light for the tests of layered materials.
+#pragma once
+
+#include <cmath>
+#include <memory>
+#include <random>
+
+#include "sateen/brdf/layered.h"
+#include "support/sky.h"
+
+namespace sateen::test {
+
+inline const Lighting& everything() {
+  static const Lighting shared = [] {
+    Lighting lighting;
+    PunctualLight key;
+    key.direction = Vec3(-0.4, 0.6, 0.7).normalized();
+    PunctualLight point;
+    point.kind = PunctualLight::Kind::point;
+    point.position = {2, 0, -3};
+    point.colour = {2, 3, 4};
+    PunctualLight spot = point;
+    spot.kind = PunctualLight::Kind::spot;
+    spot.position = {-1, 2, -2};
+    spot.direction = Vec3(0.2, -0.4, -0.5).normalized();
+    spot.inner_cone = 0.2;
+    spot.outer_cone = 0.7;
+    lighting.lights = {key, point, spot};
+    lighting.set_environment(sky());
+    return lighting;
+  }();
+  return shared;
+}
+
+inline Lighting uniform_light() {
+  Lighting lighting;
+  lighting.set_environment(Image(64, 32, 3, 1));
+  return lighting;
+}
+
+inline LayeredMaterial fuzzy(FuzzPhase phase = FuzzPhase::sggx) {
+  LayeredMaterial material;
+  material.base_colour = {0.3, 0.1, 0.1};
+  material.fuzz = FuzzParameters{};
+  material.fuzz->phase = phase;
+  material.fuzz->alpha = 0.35;
+  material.fuzz->k = 0.6;
+  material.fuzz->tilt = radians(50);
+  material.fuzz->azimuth = radians(30);
+  material.fuzz->colour = {1, 0.6, 0.4};
+  return material;
+}
+
+inline LayeredMaterial glossy() {
+  LayeredMaterial material;
+  material.specular = GgxParameters{{0.2, 0.6, radians(25)}, {0.9, 0.6, 0.3}, true};
+  return material;
+}
+
+/// A surface point facing the viewer's z axis, seen from `view`.
+inline Surface flat(const Vec3& view) {
+  Surface surface;
+  surface.view = view;
+  return surface;
+}
+
+/// Brushed pile: tilts from nearly upright to lying, all azimuths, changing from texel to texel.
+inline FibreMap brushed() {
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> value(0, 1);
+  auto picture = std::make_shared<Image>(5, 4, 3);
+  for (int y = 0; y < 4; ++y) {
+    for (int x = 0; x < 5; ++x) {
+      const double sine = std::sin(value(random) * kPi / 2);
+      const double azimuth = 2 * kPi * value(random);
+      picture->set_rgb(x, y,
+                       Vec3f(static_cast<float>(0.5 + 0.5 * sine * std::cos(azimuth)),
+                             static_cast<float>(0.5 + 0.5 * sine * std::sin(azimuth)), 0));
+    }
+  }
+  return {picture, {1, 1}};
+}
+
+}  // namespace sateen::test
