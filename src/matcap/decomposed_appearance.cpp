@@ -2,13 +2,11 @@
 #include "sateen/matcap/decomposed_appearance.h"
 
 #include <algorithm>
-#include <cmath>
 #include <set>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "sateen/core/direction.h"
 #include "sateen/core/error.h"
 #include "sateen/core/parallel.h"
 #include "sateen/core/picture_texture.h"
@@ -17,6 +15,7 @@
 #include "sateen/matcap/decomposition_file.h"
 #include "sateen/matcap/edits.h"
 #include "sateen/matcap/half_texels.h"
+#include "sateen/matcap/sphere_map.h"
 
 namespace sateen {
 namespace {
@@ -27,21 +26,17 @@ using nlohmann::json;
 constexpr std::size_t kMostLevels = 12;  // DECOMPOSED_LEVELS of the shader
 constexpr int kMostNormals = 2048;       // texels across the table of normals, 33 MB
 
-/// Bilinear sample of a picture that repeats over uv, v up.
-Vec3 sample_repeated(const Image& image, const Vec2& uv) {
-  const double x = wrap(uv.x()) * image.width - 0.5;
-  const double y = (1 - wrap(uv.y())) * image.height - 0.5;
-  const double x0 = std::floor(x);
-  const double y0 = std::floor(y);
-  const auto at = [&](double px, double py) -> Vec3 {
-    const int ix = (static_cast<int>(px) + image.width) % image.width;
-    const int iy = (static_cast<int>(py) + image.height) % image.height;
-    return image.rgb(ix, iy).cast<double>();
-  };
-  const double fx = x - x0;
-  const double fy = y - y0;
-  return (1 - fy) * ((1 - fx) * at(x0, y0) + fx * at(x0 + 1, y0)) +
-         fy * ((1 - fx) * at(x0, y0 + 1) + fx * at(x0 + 1, y0 + 1));
+double first_channel(const Image& image, const Vec2& uv) {
+  double value = 0;
+  sample_repeating(image, uv, {&value, 1});
+  return value;
+}
+
+Vec3 colour_at(const Image& image, const Vec2& uv) {
+  if (image.channels < 3) return Vec3::Constant(first_channel(image, uv));
+  Vec3 colour;
+  sample_repeating(image, uv, {colour.data(), 3});
+  return colour;
 }
 
 /// Normals that look away, as interpolation makes them, are taken to the rim.
@@ -148,12 +143,12 @@ std::unique_ptr<Appearance> DecomposedAppearance::read_material(const fs::path& 
 Vec3 DecomposedAppearance::evaluate(const Surface& surface) const {
   Modulation modulation;
   modulation.occlusion = surface.occlusion;
-  if (!maps_.low_color.empty()) modulation.low_color = sample_repeated(maps_.low_color, surface.uv);
-  if (!maps_.high_color.empty()) modulation.high_color = sample_repeated(maps_.high_color, surface.uv);
+  if (!maps_.low_color.empty()) modulation.low_color = colour_at(maps_.low_color, surface.uv);
+  if (!maps_.high_color.empty()) modulation.high_color = colour_at(maps_.high_color, surface.uv);
   if (!maps_.roughness.empty()) {
-    modulation.added_variance = maps_.roughness_scale * sample_repeated(maps_.roughness, surface.uv).x();
+    modulation.added_variance = maps_.roughness_scale * first_channel(maps_.roughness, surface.uv);
   }
-  if (!maps_.occlusion.empty()) modulation.occlusion *= sample_repeated(maps_.occlusion, surface.uv).x();
+  if (!maps_.occlusion.empty()) modulation.occlusion *= first_channel(maps_.occlusion, surface.uv);
   return sateen::evaluate(matcap_, facing(surface.eye_normal), modulation);
 }
 
