@@ -88,6 +88,22 @@ void write_atomically(const fs::path& target, const std::function<void(const fs:
   }
 }
 
+void write_atomically(std::span<const fs::path> targets,
+                      const std::function<void(std::span<const fs::path>)>& write) {
+  std::vector<fs::path> temporaries;
+  const std::function<void()> next = [&] {
+    if (temporaries.size() == targets.size()) {
+      write(temporaries);
+      return;
+    }
+    write_atomically(targets[temporaries.size()], [&](const fs::path& temporary) {
+      temporaries.push_back(temporary);
+      next();
+    });
+  };
+  next();
+}
+
 void write_bytes(const fs::path& target, std::span<const std::byte> bytes) {
   write_atomically(target, [&](const fs::path& temporary) {
     const int file = open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);

@@ -18,6 +18,11 @@ namespace sateen {
 void write_atomically(const std::filesystem::path& target,
                       const std::function<void(const std::filesystem::path& temporary)>& write);
 
+/// The same for files that belong together: none takes its name before all are written, and the first takes
+/// it last.
+void write_atomically(std::span<const std::filesystem::path> targets,
+                      const std::function<void(std::span<const std::filesystem::path> temporaries)>& write);
+
 /// write_atomically for bytes that are already there. Throws Error, for a full disk too.
 void write_bytes(const std::filesystem::path& target, std::span<const std::byte> bytes);
 void write_text(const std::filesystem::path& target, const std::string& text);

@@ -72,9 +72,9 @@ struct LobeOutput {
 
 /// Filters the maps of `source` and writes the levels beside `base`: BASE_normal_0.png, BASE_aniso_0.png, ...
 /// or BASE_normal.ktx2 and BASE_aniso.ktx2 (`base` without its extension). Returns the files in the order of
-/// levels. Besides the finished levels below the first (KTX2: all of them, as they will be stored) a few
-/// dozen rows are held in memory. Throws Error when a file cannot be read or written; files of a failed run
-/// are removed.
+/// levels. A few dozen rows are held in memory; of KTX2 all levels, as they will be stored, and of pictures
+/// with MipKernel::kaiser and MipWrap::repeat those below the first. Throws Error when a file cannot be read
+/// or written; files of a failed run are removed.
 std::vector<std::filesystem::path> write_lobe_chain(LobeSource& source, const std::filesystem::path& base,
                                                     const ChainOptions& chain, const LobeOutput& output,
                                                     const Progress& progress = {});

@@ -2,9 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <mutex>
-#include <optional>
-#include <system_error>
+#include <memory>
 
 #include <fmt/format.h>
 
@@ -39,84 +37,93 @@ Channels channels_of(const LobeTexel& texel, const LobeOutput& output, bool sign
   return c;
 }
 
-/// Level 0 goes straight to its files; the others are kept in half the size of floats until their last row is
-/// there.
+/// One level of one map on its way to a picture file. Rows that arrive before their turn wait, as they will
+/// be stored.
+class PictureLevel {
+ public:
+  PictureLevel(const fs::path& file, const fs::path& name, int width, int height, RowSamples samples)
+      : writer_(file, name, width, height, 3, samples), floats_(samples == RowSamples::f16) {}
+
+  /// Row y of three channels.
+  void write(int y, std::span<const float> row) {
+    if (y != next_) {
+      std::vector<std::uint16_t>& packed = waiting_[y];
+      packed.resize(row.size());
+      std::ranges::transform(row, packed.begin(), [&](float v) { return pack(v); });
+      return;
+    }
+    writer_.write(row);
+    ++next_;
+    std::vector<float> unpacked(row.size());
+    for (auto at = waiting_.find(next_); at != waiting_.end(); at = waiting_.find(next_)) {
+      std::ranges::transform(at->second, unpacked.begin(), [&](std::uint16_t v) { return unpack(v); });
+      writer_.write(unpacked);
+      waiting_.erase(at);
+      ++next_;
+    }
+  }
+
+  void close() { writer_.close(); }
+
+ private:
+  std::uint16_t pack(float v) const {
+    if (floats_) return Eigen::numext::bit_cast<std::uint16_t>(Half(v));
+    return static_cast<std::uint16_t>(std::clamp(v, 0.0f, 1.0f) * 65535 + 0.5f);
+  }
+  float unpack(std::uint16_t v) const {
+    if (floats_) return static_cast<float>(Eigen::numext::bit_cast<Half>(v));
+    return static_cast<float>(v) / 65535;
+  }
+
+  ImageRowWriter writer_;
+  bool floats_;
+  int next_ = 0;
+  std::map<int, std::vector<std::uint16_t>> waiting_;
+};
+
+/// `files` are in the order of `names`: both maps of level 0, then of level 1, ...
 class PictureSink : public LobeSink {
  public:
-  PictureSink(int width, int height, int levels, const LobeOutput& output, ImageRowWriter& normal,
-              ImageRowWriter& aniso)
-      : output_(output), exr_(output.kind == LobeOutput::Kind::exr), first_{&normal, &aniso} {
-    for (int level = 1; level < levels; ++level) {
-      const int w = std::max(width >> level, 1);
-      const int h = std::max(height >> level, 1);
-      const std::size_t values = static_cast<std::size_t>(w) * static_cast<std::size_t>(h) * 3;
-      levels_.push_back({w, h, {std::vector<std::uint16_t>(values), std::vector<std::uint16_t>(values)}});
+  PictureSink(int width, int height, const LobeOutput& output, RowSamples samples,
+              std::span<const fs::path> files, std::span<const fs::path> names)
+      : output_(output), signed_normals_(samples == RowSamples::f16) {
+    for (std::size_t i = 0; i < files.size(); ++i) {
+      const int level = static_cast<int>(i / 2);
+      levels_.push_back(std::make_unique<PictureLevel>(files[i], names[i], std::max(width >> level, 1),
+                                                       std::max(height >> level, 1), samples));
     }
   }
 
   void write(int level, std::span<const LobeRow> rows) override {
-    const std::size_t width = rows[0].texels.size();
+    const std::size_t row_values = rows[0].texels.size() * 3;
     std::array<std::vector<float>, 2> values;
-    for (auto& v : values) v.resize(rows.size() * width * 3);
+    for (auto& v : values) v.resize(rows.size() * row_values);
     parallel_for(static_cast<int>(rows.size()), [&](int r) {
-      const LobeRow& row = rows[static_cast<std::size_t>(r)];
-      for (std::size_t x = 0; x < width; ++x) {
-        const Channels c = channels_of(row.texels[x], output_, exr_);
-        const auto at = static_cast<std::ptrdiff_t>((static_cast<std::size_t>(r) * width + x) * 3);
+      auto at = static_cast<std::ptrdiff_t>(static_cast<std::size_t>(r) * row_values);
+      for (const LobeTexel& texel : rows[static_cast<std::size_t>(r)].texels) {
+        const Channels c = channels_of(texel, output_, signed_normals_);
         std::ranges::copy(c.normal, values[0].begin() + at);
         std::ranges::copy(c.aniso, values[1].begin() + at);
+        at += 3;
       }
     });
-    if (level == 0) {
-      parallel_for(2, [&](int map) {
-        first_[static_cast<std::size_t>(map)]->write(values[static_cast<std::size_t>(map)]);
-      });
-      return;
-    }
-    Level& kept = levels_[static_cast<std::size_t>(level - 1)];
-    for (std::size_t map = 0; map < 2; ++map) {
+    parallel_for(2, [&](int map) {
+      PictureLevel& picture = *levels_[static_cast<std::size_t>(level * 2 + map)];
+      const std::span<const float> all(values[static_cast<std::size_t>(map)]);
       for (std::size_t r = 0; r < rows.size(); ++r) {
-        const std::size_t to = static_cast<std::size_t>(rows[r].y) * width * 3;
-        for (std::size_t i = 0; i < width * 3; ++i)
-          kept.maps[map][to + i] = pack(values[map][r * width * 3 + i]);
+        picture.write(rows[r].y, all.subspan(r * row_values, row_values));
       }
-    }
+    });
   }
 
-  void write_level(int level, std::size_t map, const fs::path& path, RowSamples samples) const {
-    const Level& kept = levels_[static_cast<std::size_t>(level - 1)];
-    write_atomically(path, [&](const fs::path& temporary) {
-      ImageRowWriter writer(temporary, path, kept.width, kept.height, 3, samples);
-      std::vector<float> rows(static_cast<std::size_t>(kept.width) * 3);
-      for (int y = 0; y < kept.height; ++y) {
-        const std::size_t from = static_cast<std::size_t>(y) * rows.size();
-        for (std::size_t i = 0; i < rows.size(); ++i) rows[i] = unpack(kept.maps[map][from + i]);
-        writer.write(rows);
-      }
-      writer.close();
-    });
+  void close() {
+    for (const auto& level : levels_) level->close();
   }
 
  private:
-  struct Level {
-    int width;
-    int height;
-    std::array<std::vector<std::uint16_t>, 2> maps;
-  };
-
-  std::uint16_t pack(float v) const {
-    if (exr_) return Eigen::numext::bit_cast<std::uint16_t>(Half(v));
-    return static_cast<std::uint16_t>(std::clamp(v, 0.0f, 1.0f) * 65535 + 0.5f);
-  }
-  float unpack(std::uint16_t v) const {
-    if (exr_) return static_cast<float>(Eigen::numext::bit_cast<Half>(v));
-    return static_cast<float>(v) / 65535;
-  }
-
   const LobeOutput& output_;
-  bool exr_;
-  std::array<ImageRowWriter*, 2> first_;
-  std::vector<Level> levels_;
+  bool signed_normals_;
+  std::vector<std::unique_ptr<PictureLevel>> levels_;
 };
 
 /// Collects all levels as the file will hold them; blocks are compressed as soon as their four rows are
@@ -262,30 +269,10 @@ std::vector<fs::path> write_pictures(LobeSource& source, const fs::path& base, c
     paths.push_back(path_of("normal", level));
     paths.push_back(path_of("aniso", level));
   }
-  // The first level's files take their names last, so that a failure leaves nothing that looks whole.
-  write_atomically(paths[0], [&](const fs::path& normal_file) {
-    write_atomically(paths[1], [&](const fs::path& aniso_file) {
-      ImageRowWriter normal(normal_file, paths[0], source.width(), source.height(), 3, samples);
-      ImageRowWriter aniso(aniso_file, paths[1], source.width(), source.height(), 3, samples);
-      PictureSink sink(source.width(), source.height(), levels, output, normal, aniso);
-      filter_lobe_chain(source, sink, chain, progress);
-      normal.close();
-      aniso.close();
-      std::vector<fs::path> written;
-      std::mutex mutex;
-      try {
-        parallel_for((levels - 1) * 2, [&](int job) {
-          const fs::path& path = paths[static_cast<std::size_t>(job + 2)];
-          sink.write_level(1 + job / 2, static_cast<std::size_t>(job % 2), path, samples);
-          const std::lock_guard lock(mutex);
-          written.push_back(path);
-        });
-      } catch (...) {
-        std::error_code ignored;
-        for (const fs::path& path : written) fs::remove(path, ignored);
-        throw;
-      }
-    });
+  write_atomically(paths, [&](std::span<const fs::path> files) {
+    PictureSink sink(source.width(), source.height(), output, samples, files, paths);
+    filter_lobe_chain(source, sink, chain, progress);
+    sink.close();
   });
   return paths;
 }

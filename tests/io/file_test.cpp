@@ -76,6 +76,25 @@ TEST(File, AFailedWriteLeavesTheOlderFileAndNothingElse) {
   EXPECT_THAT(names_in(folder.path()), ElementsAre("a.txt"));
 }
 
+TEST(File, FilesThatBelongTogetherAppearTogetherOrNotAtAll) {
+  const TemporaryFolder folder;
+  const std::vector<fs::path> targets{folder / "a.txt", folder / "b.txt"};
+  const auto write = [&](std::span<const fs::path> temporaries) {
+    ASSERT_EQ(temporaries.size(), 2u);
+    std::ofstream(temporaries[0]) << "a";
+    EXPECT_FALSE(fs::exists(targets[1]));
+    std::ofstream(temporaries[1]) << "b";
+  };
+  const auto fail = [&](std::span<const fs::path> temporaries) {
+    write(temporaries);
+    throw Error("it broke");
+  };
+  EXPECT_EQ(refusal([&] { write_atomically(targets, fail); }), "it broke");
+  EXPECT_THAT(names_in(folder.path()), ElementsAre());
+  write_atomically(targets, write);
+  EXPECT_EQ(read_text(targets[0]) + read_text(targets[1]), "ab");
+}
+
 TEST(File, WhileWritingTheTargetIsStillTheOlderFile) {
   const TemporaryFolder folder;
   write_text(folder / "a.png", "old");
