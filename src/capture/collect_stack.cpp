@@ -59,14 +59,18 @@ RectifiedStack collect_stack(FrameSource& source, const FirstLook& look, const C
   std::vector<int> indices;
   for (const std::size_t i : used_frames(result.frames)) indices.push_back(static_cast<int>(i));
   result.preview_frame = indices.front();
+  result.preview = preview_of(source.read(result.preview_frame));
+  std::vector<Vec2> centres;
+  for (const int i : indices) centres.push_back(result.frames[static_cast<std::size_t>(i)].centre);
+  const PixelRect sphere = map.region(centres, source.width(), source.height());
   std::vector<RectifiedFrame> frames(result.frames.size());
   std::atomic<int> done = 0;
-  source.visit(indices, [&](int index, const Frame& frame) {
+  const auto take = [&](int index, const Frame& frame) {
     const CaptureFrame& known = result.frames[static_cast<std::size_t>(index)];
     frames[static_cast<std::size_t>(index)] = rectify(map, frame, known.centre, known.gain);
-    if (index == result.preview_frame) result.preview = preview_of(frame);
     report(progress, static_cast<double>(++done) / static_cast<double>(indices.size()));
-  });
+  };
+  source.visit(indices, take, &sphere);
   const auto turned = [&](int i) { return result.frames[static_cast<std::size_t>(i)].turned; };
   std::ranges::sort(indices, {}, turned);
   for (const int i : indices) {
