@@ -8,14 +8,24 @@
 
 #include "sateen/capture/standing_still.h"
 #include "sateen/capture/used_frames.h"
+#include "sateen/core/parallel.h"
 
 namespace sateen {
 namespace {
 
 Image preview_of(const Frame& frame) {
   const int factor = (frame.width() + 959) / 960;
-  const Image whole = frame.crop(0, 0, frame.width() / factor * factor, frame.height() / factor * factor);
-  return resized(whole, whole.width / factor, whole.height / factor);
+  Image preview(frame.width() / factor, frame.height() / factor, 3);
+  parallel_for(preview.height, [&](int y) {
+    for (int x = 0; x < preview.width; ++x) {
+      Vec3f sum(0, 0, 0);
+      for (int v = y * factor; v < (y + 1) * factor; ++v) {
+        for (int u = x * factor; u < (x + 1) * factor; ++u) sum += frame.rgb(u, v);
+      }
+      preview.set_rgb(x, y, sum / static_cast<float>(factor * factor));
+    }
+  });
+  return preview;
 }
 
 /// Adds the share of frames in which each texel is clipped to `result`.

@@ -67,18 +67,18 @@ Frame::Frame(Picture8 picture, const Response& response)
 Frame::Frame(Image light, float clip)
     : width_(light.width), height_(light.height), light_(std::move(light)), clip_(clip) {}
 
-void Frame::add_grey_row(int x, int y, int factor, std::span<std::uint32_t> sums) const {
+void Frame::add_grey_row(int x, int y, int factor, std::span<int> sums) const {
   if (!light_.empty()) {
     for (std::size_t i = 0; i < sums.size(); ++i) {
       const int first = x + static_cast<int>(i) * factor;
       for (int u = first; u < first + factor; ++u)
-        sums[i] += static_cast<std::uint32_t>(std::clamp(grey(u, y), 0.0f, 1.0f) * kWhite + 0.5f);
+        sums[i] += static_cast<int>(std::clamp(grey(u, y), 0.0f, 1.0f) * kWhite + 0.5f);
     }
     return;
   }
   const std::uint8_t* p = codes_.data() + offset(x, y);
-  for (std::uint32_t& sum : sums) {
-    for (int u = 0; u < factor; ++u, p += 3) sum += quarter_[p[0]] + 2u * quarter_[p[1]] + quarter_[p[2]];
+  for (int& sum : sums) {
+    for (int u = 0; u < factor; ++u, p += 3) sum += quarter_[p[0]] + 2 * quarter_[p[1]] + quarter_[p[2]];
   }
 }
 

@@ -17,7 +17,7 @@ struct FrameAngles {
 };
 
 /// Sets every frame's `turned` (0 for the first used frame) and `confidence`, and drops frames that turn out
-/// blurred, repeated or not to be registered. Uses up the notes' patches. `axes` as in surface_patch;
+/// blurred, repeated or not to be registered. Uses up the notes' patches. `axes` as in PatchMap;
 /// `stride` as in FrameSource. Throws Error when too few frames are left, the surface shows too little to be
 /// followed, or other than one angle a frame is given.
 FrameAngles find_frame_angles(std::vector<FrameNotes>& notes, const Mat3& axes, const CaptureOptions& options,

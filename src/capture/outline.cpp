@@ -3,6 +3,7 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "sateen/capture/median.h"
@@ -15,8 +16,15 @@ namespace {
 constexpr int kAzimuths = 240;
 constexpr double kStep = 0.5;  // pixels between samples of a profile
 
+constexpr std::array<double, 256> kLight = [] {
+  std::array<double, 256> light{};
+  for (std::size_t code = 0; code < light.size(); ++code)
+    light[code] = static_cast<double>(code * code) / (255.0 * 255.0);
+  return light;
+}();
+
 double light_of(std::uint8_t code) {
-  return code * code / (255.0 * 255.0);
+  return kLight[code];
 }
 
 /// Bilinear light of a grey picture, clamped to the edge. Edges are mixtures of light, not of codes.

@@ -23,10 +23,6 @@ constexpr double kNoisy = 4;  // correlation, in those that chance reaches, belo
 constexpr std::array kRounds{2, 2, 1};       // of refinement: every how many pixels tell
 constexpr double kOffMiddle = radians(0.8);  // an axis nearer to the middle is found from there as well
 
-float linear_light(std::uint8_t code) {
-  return static_cast<float>(code) * static_cast<float>(code) * (1 / (255.0f * 255.0f));
-}
-
 std::vector<cv::Mat> smoothed(const std::vector<cv::Mat>& images, const std::vector<std::size_t>& wanted,
                               double sigma) {
   std::vector<cv::Mat> result(images.size());
@@ -113,6 +109,19 @@ Turning turning_about(const std::vector<cv::Mat>& images, const PolarTurning& st
   return turning;
 }
 
+/// PolarPictures::contradiction, which as a median needs no more than some of the frames.
+double contradiction_of(const std::vector<cv::Mat>& images, const Turning& turning) {
+  constexpr std::size_t kEnough = 64;
+  const std::size_t step = std::max<std::size_t>(1, images.size() / kEnough);
+  std::vector<cv::Mat> some;
+  std::vector<double> angles;
+  for (std::size_t i = 0; i < images.size(); i += step) {
+    some.push_back(images[i]);
+    angles.push_back(turning.angles[i]);
+  }
+  return PolarPictures(some, turning.axis).contradiction(angles);
+}
+
 /// From the patches' frame to the view, angles from the first frame.
 void to_view(const Mat3& axes, Turning& turning) {
   turning.axis = axes.transpose() * turning.axis;
@@ -121,58 +130,6 @@ void to_view(const Mat3& axes, Turning& turning) {
 }
 
 }  // namespace
-
-SurfacePatch surface_patch(const GreyPicture& frame, const Camera& camera, const SphereView& sphere,
-                           const Mat3& axes, int size) {
-  cv::Mat light = cv::Mat::zeros(size, size, CV_32F);
-  cv::Mat inside = cv::Mat::zeros(size, size, CV_32F);
-  const Mat3 to_view = axes.transpose();
-  for (int y = 0; y < size; ++y) {
-    for (int x = 0; x < size; ++x) {
-      const Vec2 disc = kPatchReach * disc_of_pixel(x, y, size);
-      const double r2 = disc.squaredNorm();
-      if (r2 > kPatchReach * kPatchReach) continue;
-      const Vec3 normal = to_view * Vec3(disc.x(), disc.y(), std::sqrt(1 - r2));
-      const Vec2 at = camera.project(sphere.centre + normal);
-      const double cx = std::clamp(at.x() - 0.5, 0.0, frame.width - 1.001);
-      const double cy = std::clamp(at.y() - 0.5, 0.0, frame.height - 1.001);
-      const int x0 = static_cast<int>(cx);
-      const int y0 = static_cast<int>(cy);
-      const auto fx = static_cast<float>(cx - x0);
-      const auto fy = static_cast<float>(cy - y0);
-      const float top = linear_light(frame.at(x0, y0)) * (1 - fx) + linear_light(frame.at(x0 + 1, y0)) * fx;
-      const float bottom =
-          linear_light(frame.at(x0, y0 + 1)) * (1 - fx) + linear_light(frame.at(x0 + 1, y0 + 1)) * fx;
-      light.at<float>(y, x) = top + fy * (bottom - top);
-      inside.at<float>(y, x) = 1;
-    }
-  }
-  cv::Mat around;
-  cv::Mat share;
-  const double sigma = size / 120.0;
-  cv::GaussianBlur(light, around, {}, sigma);
-  cv::GaussianBlur(inside, share, {}, sigma);
-  SurfacePatch patch;
-  patch.size = size;
-  patch.detail.assign(static_cast<std::size_t>(size) * static_cast<std::size_t>(size), 0);
-  double squares = 0;
-  double count = 0;
-  for (int y = 0; y < size; ++y) {
-    for (int x = 0; x < size; ++x) {
-      if (inside.at<float>(y, x) == 0) continue;
-      const float mean = around.at<float>(y, x) / share.at<float>(y, x);
-      // In the dark the detail is noise: the floor keeps it small.
-      const float detail = (light.at<float>(y, x) - mean) / (mean + 0.01f);
-      const float bounded = std::clamp(detail, -1.0f, 1.0f);
-      patch.detail[static_cast<std::size_t>(y * size + x)] =
-          static_cast<std::int8_t>(bounded * 127 + (bounded < 0 ? -0.5f : 0.5f));
-      squares += static_cast<double>(bounded * bounded);
-      ++count;
-    }
-  }
-  patch.sharpness = std::sqrt(squares / std::max(1.0, count));
-  return patch;
-}
 
 Turning find_turning(std::span<const SurfacePatch> patches, const Mat3& axes) {
   std::vector<cv::Mat> images = moving_detail(patches);
@@ -197,7 +154,7 @@ Turning find_turning(std::span<const SurfacePatch> patches, const Mat3& axes) {
       start = about;
     }
   }
-  turning.contradiction = PolarPictures(images, turning.axis).contradiction(turning.angles);
+  turning.contradiction = contradiction_of(images, turning);
   turning.confidence = start.confidence;
   turning.confidence_floor = start.floor;
   to_view(axes, turning);
@@ -222,7 +179,7 @@ Turning find_axis(std::span<const SurfacePatch> patches, const Mat3& axes, std::
     const Turning tilted = from(other);
     if (median(tilted.confidence) > median(turning.confidence)) turning = tilted;
   }
-  turning.contradiction = PolarPictures(images, turning.axis).contradiction(turning.angles);
+  turning.contradiction = contradiction_of(images, turning);
   to_view(axes, turning);
   return turning;
 }
