@@ -16,56 +16,60 @@ namespace {
 constexpr double kWidestBridge = 1.0 / 9;  // turns
 
 struct Sample {
-  double angle = 0;  // turns, within one period
-  float weight = 0;
-  std::array<float, 3> rgb{};
+  double angle = 0;                     // turns, within one period
+  Eigen::Array4f weighted{0, 0, 0, 0};  // weight times 1, r, g, b
+
+  std::array<float, 3> rgb() const {
+    return {weighted[1] / weighted[0], weighted[2] / weighted[0], weighted[3] / weighted[0]};
+  }
 };
 
 /// Weighted sums of a quadratic least-squares fit in u = (angle - target) / half width.
 struct Moments {
-  std::array<double, 5> s{};                 // of u^0 .. u^4
-  std::array<std::array<double, 3>, 3> t{};  // of u^0 .. u^2 times r, g, b
-  double left = 0;
-  double right = 0;
+  /// Of u^0 .. u^2 times 1, r, g, b; of u^3 and u^4 times 1 alone.
+  std::array<Eigen::Array4f, 3> t{Eigen::Array4f::Zero(), Eigen::Array4f::Zero(), Eigen::Array4f::Zero()};
+  float cubes = 0;
+  float fourths = 0;
+  float left = 0;
   int count = 0;
 
-  void add(const Sample& sample, double u) {
-    const double hat = 1 - u * u;
-    const double w = hat * hat * static_cast<double>(sample.weight);
-    double power = w;
-    for (std::size_t p = 0; p < 5; ++p) {
-      s[p] += power;
-      if (p < 3) {
-        for (std::size_t c = 0; c < 3; ++c) t[p][c] += power * static_cast<double>(sample.rgb[c]);
-      }
-      power *= u;
-    }
-    (u < 0 ? left : right) += w;
+  void add(const Sample& sample, float u) {
+    const float hat = 1 - u * u;
+    const Eigen::Array4f w = hat * hat * sample.weighted;
+    const Eigen::Array4f square = u * u * w;
+    t[0] += w;
+    t[1] += u * w;
+    t[2] += square;
+    cubes += u * square[0];
+    fourths += u * u * square[0];
+    if (u < 0) left += w[0];
     ++count;
   }
 
   /// The fit's value at u = 0, of the highest degree the samples carry.
   std::array<float, 3> value() const {
-    std::array<float, 3> result{};
+    const auto of = [](float sum) { return static_cast<double>(sum); };
+    const std::array s{of(t[0][0]), of(t[1][0]), of(t[2][0]), of(cubes), of(fourths)};
     // Shares of the three right-hand sides in the constant term, by Cramer's rule.
     double a = 1 / s[0];
     double b = 0;
     double c = 0;
-    const bool two_sided = left > 0.05 * s[0] && right > 0.05 * s[0];
+    const bool two_sided = of(left) > 0.05 * s[0] && of(left) < 0.95 * s[0];
     const double linear = s[0] * s[2] - s[1] * s[1];
     const double quadratic = s[0] * (s[2] * s[4] - s[3] * s[3]) - s[1] * (s[1] * s[4] - s[2] * s[3]) +
                              s[2] * (s[1] * s[3] - s[2] * s[2]);
     if (two_sided && count >= 4 && quadratic > 1e-4 * s[0] * s[0] * s[0]) {
-      a = (s[2] * s[4] - s[3] * s[3]) / quadratic;
-      b = -(s[1] * s[4] - s[2] * s[3]) / quadratic;
-      c = (s[1] * s[3] - s[2] * s[2]) / quadratic;
+      const double k = 1 / quadratic;
+      a = k * (s[2] * s[4] - s[3] * s[3]);
+      b = k * (s[2] * s[3] - s[1] * s[4]);
+      c = k * (s[1] * s[3] - s[2] * s[2]);
     } else if (two_sided && linear > 1e-4 * s[0] * s[0]) {
       a = s[2] / linear;
       b = -s[1] / linear;
     }
-    for (std::size_t i = 0; i < 3; ++i)
-      result[i] = static_cast<float>(a * t[0][i] + b * t[1][i] + c * t[2][i]);
-    return result;
+    const Eigen::Array4f sum =
+        static_cast<float>(a) * t[0] + static_cast<float>(b) * t[1] + static_cast<float>(c) * t[2];
+    return {sum[1], sum[2], sum[3]};
   }
 };
 
@@ -101,13 +105,15 @@ class Fit {
     if (gap > widest_) return Known::no;
     if (gap > 1.5 * half_width_) {
       const auto mix = static_cast<float>((target - below.angle) / gap);
-      for (std::size_t c = 0; c < 3; ++c) rgb[c] = below.rgb[c] + mix * (above.rgb[c] - below.rgb[c]);
+      const auto from = below.rgb();
+      const auto to = above.rgb();
+      for (std::size_t c = 0; c < 3; ++c) rgb[c] = from[c] + mix * (to[c] - from[c]);
       return Known::bridged;
     }
     while (first_ < samples_.size() && samples_[first_].angle < target - half_width_) ++first_;
     Moments moments;
     for (std::size_t i = first_; i < samples_.size() && samples_[i].angle < target + half_width_; ++i)
-      moments.add(samples_[i], (samples_[i].angle - target) / half_width_);
+      moments.add(samples_[i], static_cast<float>((samples_[i].angle - target) / half_width_));
     if (moments.count == 0) return Known::no;
     rgb = moments.value();
     return Known::measured;
@@ -151,8 +157,10 @@ class Samples {
         if (mask_.size > 0 && mask_.excludes(body_point(axes_, point.normal, turned_[f]))) continue;
         Sample sample;
         sample.angle = wrap(tangents[u].at(poles_[f]), period_);
-        sample.weight = static_cast<float>(frame.weight[i]) / 255.0f;
-        for (std::size_t c = 0; c < 3; ++c) sample.rgb[c] = static_cast<float>(frame.rgb[i * 3 + c]);
+        const Half* rgb = &frame.rgb[i * 3];
+        sample.weighted << 1.0f, static_cast<float>(rgb[0]), static_cast<float>(rgb[1]),
+            static_cast<float>(rgb[2]);
+        sample.weighted *= static_cast<float>(frame.weight[i]) / 255.0f;
         samples[u].push_back(sample);
       }
     }

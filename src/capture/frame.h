@@ -54,7 +54,7 @@ class Frame {
     return light_.rgb(x, y).maxCoeff() >= clip_;
   }
   /// Bilinear, clamped to the edge; pixel centres at +0.5.
-  Vec3f rgb_at(double x, double y) const;
+  Vec3f rgb_at(const Vec2f& p) const;
 
   /// Adds to each sum the grey() of `factor` pixels of row y, from pixel (x, y) on: sums[i] gets those of
   /// x + i * factor and the factor - 1 after it. kWhite is white.

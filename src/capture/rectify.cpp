@@ -98,7 +98,7 @@ RectifiedFrame rectify(const RectifyMap& map, const Frame& frame, const Vec2& ce
           if (!s.seen) continue;
           const Vec2f p = s.moved(shift);
           if (masked && map.mask_.hides(p.x(), p.y())) continue;
-          sum += frame.rgb_at(static_cast<double>(p.x()), static_cast<double>(p.y()));
+          sum += frame.rgb_at(p);
           const int ix = std::clamp(static_cast<int>(p.x()), 0, frame.width() - 1);
           const int iy = std::clamp(static_cast<int>(p.y()), 0, frame.height() - 1);
           clipped += frame.clipped(ix, iy) ? 1 : 0;

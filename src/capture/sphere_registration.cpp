@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 
 #include <opencv2/imgproc.hpp>
 
@@ -20,35 +21,29 @@ Mat3 turn(const Vec3& axis, double angle) {
   return Eigen::AngleAxisd(angle, axis).toRotationMatrix();
 }
 
-constexpr int kBlock = 64;
+constexpr int kBlock = PatchNormals::kBlock;
 using Block = Eigen::Array<float, kBlock, 1>;
 
 /// What a frame shows of a block of surface pixels.
 struct ShownBlock {
-  std::array<int, kBlock> pixel{};  // of the surface (the disc at angle 0)
+  std::span<const int> pixel;  // of the surface (the disc at angle 0)
   Eigen::Array<float, kBlock, 3> normal;
   Block inside;  // 1: the frame shows it inside its own disc; 0: it does not
   Block seen;    // the frame's value; 0 where it is not inside
 };
 
-/// Calls body(ShownBlock) for every `every`-th pixel of the surface, as a frame turned by `rotation` shows
-/// it.
+/// Calls body(ShownBlock) for all of `normals`, as a frame turned by `rotation` shows them.
 template <class Body>
-void for_shown(const PatchNormals& normals, const cv::Mat& image, const Mat3& rotation, int every,
-               const Body& body) {
+void for_shown(const PatchNormals& normals, const cv::Mat& image, const Mat3& rotation, const Body& body) {
   const Eigen::Matrix3f turned = rotation.cast<float>();
   const int size = normals.size();
   const auto scale = static_cast<float>(size / (2 * kPatchReach));
   const float middle = 0.5f * static_cast<float>(size) - 0.5f;
   const float* pixels = image.ptr<float>(0);
-  const auto count = static_cast<int>(normals.pixels().size());
   ShownBlock block;
-  for (int first = 0; first < count; first += kBlock * every) {
-    for (int i = 0; i < kBlock; ++i) {
-      const int at = std::min(first + i * every, count - 1);
-      block.pixel[static_cast<std::size_t>(i)] = normals.pixels()[static_cast<std::size_t>(at)];
-      block.normal.row(i) = normals.normals().row(at);
-    }
+  for (Eigen::Index first = 0; first < normals.normals().rows(); first += kBlock) {
+    block.pixel = std::span(normals.pixels()).subspan(static_cast<std::size_t>(first), kBlock);
+    block.normal = normals.normals().middleRows<kBlock>(first);
     const auto along = [&](int axis) -> Block {
       return turned(axis, 0) * block.normal.col(0) + turned(axis, 1) * block.normal.col(1) +
              turned(axis, 2) * block.normal.col(2);
@@ -57,8 +52,6 @@ void for_shown(const PatchNormals& normals, const cv::Mat& image, const Mat3& ro
     const Block ny = along(1);
     block.inside =
         (along(2) > 0 && nx.square() + ny.square() <= static_cast<float>(kReach)).template cast<float>();
-    const int whole = (count - first + every - 1) / every;  // beyond it the last pixel is repeated
-    if (whole < kBlock) block.inside.tail(kBlock - whole).setZero();
     const Block x = block.inside * (middle + scale * nx);
     const Block y = block.inside * (middle - scale * ny);
     for (int i = 0; i < kBlock; ++i) {
@@ -99,18 +92,22 @@ std::vector<cv::Mat> moving_detail(std::span<const SurfacePatch> patches) {
   return images;
 }
 
-PatchNormals::PatchNormals(int size) : size_(size) {
+PatchNormals::PatchNormals(int size, int every) : size_(size) {
   std::vector<Vec3f> normals;
+  int count = 0;
   for (int y = 0; y < size; ++y) {
     for (int x = 0; x < size; ++x) {
       const Vec2 disc = kPatchReach * disc_of_pixel(x, y, size);
-      if (disc.squaredNorm() > kReach) continue;
+      if (disc.squaredNorm() > kReach || count++ % every != 0) continue;
       pixels_.push_back(y * size + x);
       normals.emplace_back(normal_on_disc(disc).cast<float>());
     }
   }
-  normals_.resize(static_cast<Eigen::Index>(normals.size()), 3);
-  for (std::size_t i = 0; i < normals.size(); ++i) normals_.row(static_cast<Eigen::Index>(i)) = normals[i];
+  const std::size_t padded = (normals.size() + kBlock - 1) / kBlock * kBlock;
+  pixels_.resize(padded, 0);
+  normals.resize(padded, Vec3f(0, 0, -1));
+  normals_.resize(static_cast<Eigen::Index>(padded), 3);
+  for (std::size_t i = 0; i < padded; ++i) normals_.row(static_cast<Eigen::Index>(i)) = normals[i].array();
 }
 
 SurfacePicture::SurfacePicture(cv::Mat picture) : detail(std::move(picture)) {
@@ -120,11 +117,11 @@ SurfacePicture::SurfacePicture(cv::Mat picture) : detail(std::move(picture)) {
 }
 
 BodyRotation register_frame(const PatchNormals& normals, const SurfacePicture& surface, const cv::Mat& frame,
-                            const Mat3& turned, int every) {
+                            const Mat3& turned) {
   // The six different entries of the normal matrix, the right side, and the correlation's parts: in floats
   // over a block, in doubles over all.
   Eigen::Array<double, 12, 1> sums = Eigen::Array<double, 12, 1>::Zero();
-  for_shown(normals, frame, turned, every, [&](const ShownBlock& block) {
+  for_shown(normals, frame, turned, [&](const ShownBlock& block) {
     const Block dx = values_at(surface.along_x, block);
     const Block dy = values_at(surface.along_y, block);
     const Block common = values_at(surface.detail, block);
@@ -166,7 +163,7 @@ SurfacePicture common_surface(const PatchNormals& normals, const std::vector<cv:
     auto* sum = sums[slot].ptr<float>(0);
     auto* weight = weights[slot].ptr<float>(0);
     for (std::size_t f = slot * every; f < images.size(); f += kSlots * every) {
-      for_shown(normals, images[f], turn(axis, angles[f]), 1, [&](const ShownBlock& block) {
+      for_shown(normals, images[f], turn(axis, angles[f]), [&](const ShownBlock& block) {
         for (int k = 0; k < kBlock; ++k) {
           const int at = block.pixel[static_cast<std::size_t>(k)];
           sum[at] += block.seen[k];
@@ -181,20 +178,28 @@ SurfacePicture common_surface(const PatchNormals& normals, const std::vector<cv:
   return SurfacePicture(surface);
 }
 
-void refine_turning(const PatchNormals& normals, const std::vector<cv::Mat>& images, bool refine_angles,
-                    int every, Turning& turning) {
+namespace {
+
+constexpr int kQuickEvery = 2;     // pixel
+constexpr std::size_t kMany = 96;  // frames of which a part shows the surface as well
+
+}  // namespace
+
+TurningRefinement::TurningRefinement(const std::vector<cv::Mat>& images)
+    : images_(images), all_(images[0].cols), some_(images[0].cols, kQuickEvery) {}
+
+void TurningRefinement::round(bool refine_angles, bool quick, Turning& turning) const {
   Vec3& axis = turning.axis;
   std::vector<double>& angles = turning.angles;
-  const std::size_t n = images.size();
-  constexpr std::size_t kMany = 96;  // frames of which a part shows the surface as well
-  const SurfacePicture surface =
-      common_surface(normals, images, axis, angles, n < kMany ? 1 : static_cast<std::size_t>(every));
+  const std::size_t n = images_.size();
+  const SurfacePicture surface = common_surface(all_, images_, axis, angles, quick && n >= kMany ? 2 : 1);
   turning.strength.resize(n);
   turning.confidence.resize(n);
   std::vector<Vec3> rotation(n, Vec3::Zero());
   parallel_for(static_cast<int>(n), [&](int i) {
     const auto f = static_cast<std::size_t>(i);
-    const BodyRotation found = register_frame(normals, surface, images[f], turn(axis, angles[f]), every);
+    const BodyRotation found =
+        register_frame(quick ? some_ : all_, surface, images_[f], turn(axis, angles[f]));
     rotation[f] = found.rotation;
     turning.strength[f] = found.strength;
     turning.confidence[f] = found.correlation;

@@ -17,12 +17,15 @@ std::vector<cv::Mat> moving_detail(std::span<const SurfacePatch> patches);
 /// arithmetic.
 class PatchNormals {
  public:
-  explicit PatchNormals(int size);
+  static constexpr int kBlock = 64;
+
+  /// Every `every`-th pixel.
+  explicit PatchNormals(int size, int every = 1);
 
   int size() const { return size_; }
-  /// y * size + x of each pixel.
+  /// y * size + x of each pixel; then zeros up to a whole block.
   const std::vector<int>& pixels() const { return pixels_; }
-  /// Row i is the normal of pixels()[i].
+  /// Row i is the normal of pixels()[i]; those beyond the last look away from the camera.
   const Eigen::ArrayX3f& normals() const { return normals_; }
 
  private:
@@ -46,9 +49,9 @@ struct SurfacePicture {
   cv::Mat along_y;  ///< and y, which points up, per unit of disc
 };
 
-/// One Lucas-Kanade step for a frame turned by about `turned`, from every `every`-th pixel.
+/// One Lucas-Kanade step for a frame turned by about `turned`, from the pixels of `normals`.
 BodyRotation register_frame(const PatchNormals& normals, const SurfacePicture& surface, const cv::Mat& frame,
-                            const Mat3& turned, int every = 1);
+                            const Mat3& turned);
 
 /// What every `every`-th frame has in common, seen at angle 0.
 SurfacePicture common_surface(const PatchNormals& normals, const std::vector<cv::Mat>& images,
@@ -56,8 +59,17 @@ SurfacePicture common_surface(const PatchNormals& normals, const std::vector<cv:
 
 /// One round for all frames: their common surface, each one's rotation against it (register_frame), then the
 /// axis (patch frame) that explains what the rotations share. Updates everything in `turning`, whose axis is
-/// in the patches' frame here.
-void refine_turning(const PatchNormals& normals, const std::vector<cv::Mat>& images, bool refine_angles,
-                    int every, Turning& turning);
+/// in the patches' frame here. A `quick` round looks at a part of the pixels and, where there are many, of
+/// the frames.
+class TurningRefinement {
+ public:
+  explicit TurningRefinement(const std::vector<cv::Mat>& images);
+  void round(bool refine_angles, bool quick, Turning& turning) const;
+
+ private:
+  const std::vector<cv::Mat>& images_;
+  PatchNormals all_;
+  PatchNormals some_;
+};
 
 }  // namespace sateen

@@ -20,8 +20,8 @@ namespace {
 constexpr double kPairTurn = radians(12);  // apart enough to show the axis, near enough to look alike
 constexpr int kPairs = 48;
 constexpr double kNoisy = 4;  // correlation, in those that chance reaches, below which smoothing pays
-constexpr std::array kRounds{2, 2, 1};       // of refinement: every how many pixels tell
-constexpr double kOffMiddle = radians(0.8);  // an axis nearer to the middle is found from there as well
+constexpr std::array kRounds{true, true, false};  // of refinement: the quick ones first
+constexpr double kOffMiddle = radians(0.8);       // an axis nearer to the middle is found from there as well
 
 std::vector<cv::Mat> smoothed(const std::vector<cv::Mat>& images, const std::vector<std::size_t>& wanted,
                               double sigma) {
@@ -58,7 +58,8 @@ Vec3 axis_of_neighbours(const std::vector<cv::Mat>& images, const PolarPictures&
   if (pairs.size() < 6) return Vec3::UnitZ();
   std::ranges::sort(wanted);
   wanted.erase(std::ranges::unique(wanted).begin(), wanted.end());
-  const PatchNormals normals(images[0].cols);
+  const PatchNormals some(images[0].cols, 2);
+  const PatchNormals few(images[0].cols, 4);
   const std::vector<cv::Mat> soft = smoothed(images, wanted, images[0].cols / 80.0);
   std::vector<Vec2> tilts(pairs.size(), Vec2(0, 0));
   std::vector<double> trust(pairs.size(), 0);
@@ -69,10 +70,10 @@ Vec3 axis_of_neighbours(const std::vector<cv::Mat>& images, const PolarPictures&
     const SurfacePicture coarse(soft[still]);
     const SurfacePicture fine(images[still]);
     BodyRotation step;
-    // A first guess for refine_turning: a part of the pixels will do.
+    // A first guess for TurningRefinement: a part of the pixels will do.
     for (int round = 0; round < 8; ++round) {
-      step = round < 5 ? register_frame(normals, coarse, soft[turned], rotation, 4)
-                       : register_frame(normals, fine, images[turned], rotation, 2);
+      step = round < 5 ? register_frame(few, coarse, soft[turned], rotation)
+                       : register_frame(some, fine, images[turned], rotation);
       const double size = step.rotation.norm();
       if (size > radians(4)) return;
       if (size > 0) {
@@ -104,8 +105,8 @@ Turning turning_about(const std::vector<cv::Mat>& images, const PolarTurning& st
   Turning turning;
   turning.axis = axis;
   turning.angles = start.angles;
-  const PatchNormals normals(images[0].cols);
-  for (const int every : kRounds) refine_turning(normals, images, true, every, turning);
+  const TurningRefinement refinement(images);
+  for (const bool quick : kRounds) refinement.round(true, quick, turning);
   return turning;
 }
 
@@ -164,13 +165,13 @@ Turning find_turning(std::span<const SurfacePatch> patches, const Mat3& axes) {
 Turning find_axis(std::span<const SurfacePatch> patches, const Mat3& axes, std::span<const double> angles,
                   bool refine_angles) {
   const std::vector<cv::Mat> images = moving_detail(patches);
-  const PatchNormals normals(images[0].cols);
+  const TurningRefinement refinement(images);
   const std::vector<double> known(angles.begin(), angles.end());
   const auto from = [&](const Vec3& axis) {
     Turning turning;
     turning.axis = axis;
     turning.angles = known;
-    for (const int every : kRounds) refine_turning(normals, images, refine_angles, every, turning);
+    for (const bool quick : kRounds) refinement.round(refine_angles, quick, turning);
     return turning;
   };
   Turning turning = from(Vec3::UnitZ());
