@@ -104,15 +104,19 @@ std::vector<float> log_light(float dark) {
 }
 
 /// How much each rectified sample differs from the median of the angles around it, natural log, 100 a unit,
-/// clamped to
-/// +-1.2; kUnknown in the dark and where too few neighbours are seen. Index (frame * texels + texel) * 3 +
-/// channel.
-std::vector<std::int8_t> deviations(const RectifiedStack& stack, const SurfaceMask& already) {
+/// clamped to +-1.2; kUnknown in the dark and where too few neighbours are seen. Index (frame * texels +
+/// texel)
+/// * 3 + channel.
+using Deviations = std::vector<std::int8_t>;
+
+/// Brings `result`, empty or of a part of `already`, up to date with what is `already` known to be a blemish.
+void find_deviations(const RectifiedStack& stack, const SurfaceMask& already, Deviations& result) {
   const std::size_t frames = stack.frames.size();
   const std::size_t texels = stack.points.size();
   const AxisFrame axes(stack.axis);
   const float dark = dark_floor(stack);
-  std::vector<std::int8_t> result(frames * texels * 3, kUnknown);
+  const bool again = !result.empty();
+  result.resize(frames * texels * 3, kUnknown);
   const std::size_t step = frame_step(frames);
   // The neighbours of a frame along the turn are the same for all texels.
   std::vector<std::vector<std::size_t>> neighbours(frames);
@@ -138,7 +142,8 @@ std::vector<std::int8_t> deviations(const RectifiedStack& stack, const SurfaceMa
     std::vector<const BlockLight*> around;
     for (int block = 0; block < blocks; ++block) {
       const int first = block * kBlock;
-      bool any = false;
+      bool any = false;  // seen at all
+      bool excluded = false;
       for (std::size_t f = 0; f < frames; ++f) {
         const RectifiedFrame& frame = stack.frames[f];
         BlockLight& here = light[f];
@@ -152,42 +157,42 @@ std::vector<std::int8_t> deviations(const RectifiedStack& stack, const SurfaceMa
               already.excludes(body_point(axes, stack.points[i].normal, turned[f])))
             use = 2;
           any = any || use != 0;
+          excluded = excluded || use == 2;
           here.whole = here.whole && use == 1;
           for (std::size_t c = 0; c < 3; ++c)
             here.light[c][u] = use == 0 ? 0 : logarithm[bits_of(frame.rgb[i * 3 + c])];
         }
       }
-      if (!any) continue;
+      if (!any || (again && !excluded)) continue;
       for (std::size_t f = 0; f < frames; f += step) {
         around.clear();
         for (const std::size_t g : neighbours[f]) around.push_back(&light[g]);
         std::array<bool, kBlock> known{};  // usable, and enough of the angles around as well
         for (std::size_t column = 0; column < kBlock; ++column)
           known[column] = light[f].usable[column] != 0 && usable_in(around, column) >= 3;
-        if (std::ranges::none_of(known, std::identity{})) continue;
         for (std::size_t c = 0; c < 3; ++c) {
           const Columns expected = middle_of_columns(around, c);
           const Columns deviation = (light[f].light[c] - expected).max(-1.2f).min(1.2f);
           for (std::size_t column = 0; column < kBlock; ++column) {
             const auto u = static_cast<Eigen::Index>(column);
-            if (!known[column] || expected[u] < darkest) continue;
             const auto i = static_cast<std::size_t>(row) * static_cast<std::size_t>(stack.size) +
                            static_cast<std::size_t>(first) + column;
-            result[(f * texels + i) * 3 + c] = static_cast<std::int8_t>(std::lround(deviation[u] * 100));
+            if (first + static_cast<int>(column) >= stack.size) continue;
+            result[(f * texels + i) * 3 + c] = known[column] && expected[u] >= darkest
+                                                   ? static_cast<std::int8_t>(std::lround(deviation[u] * 100))
+                                                   : kUnknown;
           }
         }
       }
     }
   });
-  return result;
 }
 
 /// The deviation that nearly all frames agree on at each body pixel, in the channel where it is strongest; 0
 /// where nothing is known. A highlight crosses a place of the body in some frames, a blemish is there in all.
-std::vector<float> body_deviation(const RectifiedStack& stack, const SurfaceMask& already, int size) {
+std::vector<float> body_deviation(const RectifiedStack& stack, const Deviations& deviation, int size) {
   const std::size_t frames = stack.frames.size();
   const std::size_t texels = stack.points.size();
-  const std::vector<std::int8_t> deviation = deviations(stack, already);
   // Where on the table a body direction is seen as it turns: through the map from normals across the axis to
   // texels.
   const AxisFrame axes(stack.axis);
@@ -286,10 +291,12 @@ bool SurfaceMask::masks(const Vec2& body) const {
   return size > 0 && masked[body_pixel(body, size)] != 0;
 }
 
-SurfaceMask find_blemishes(const RectifiedStack& stack, const SurfaceMask& already) {
+namespace {
+
+SurfaceMask blemishes_of(const RectifiedStack& stack, const Deviations& deviations) {
   SurfaceMask mask;
   mask.size = stack.size;
-  mask.deviation = body_deviation(stack, already, mask.size);
+  mask.deviation = body_deviation(stack, deviations, mask.size);
 
   mask.masked.assign(mask.deviation.size(), 0);
   const double high = 2 * kSmallest;
@@ -328,6 +335,18 @@ SurfaceMask find_blemishes(const RectifiedStack& stack, const SurfaceMask& alrea
   }
   finish(mask);
   return mask;
+}
+
+}  // namespace
+
+SurfaceMask find_blemishes(const RectifiedStack& stack, const SurfaceMask& already) {
+  Deviations deviations;
+  find_deviations(stack, already, deviations);
+  const SurfaceMask found = blemishes_of(stack, deviations);
+  if (found.share == 0) return found;
+  // Once more without what was found, so that it no longer pulls the medians.
+  find_deviations(stack, united(already, found), deviations);
+  return blemishes_of(stack, deviations);
 }
 
 SurfaceMask mask_from_painting(const Image& painting, const Camera& camera, const SphereView& sphere,
