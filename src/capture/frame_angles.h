@@ -14,6 +14,8 @@ struct FrameAngles {
   bool equal_steps = false;  ///< recognised, and then used exactly
   double turned = 0;         ///< radians from the first to the last used frame
   double contradiction = 0;  ///< Turning::contradiction
+  double known_off = 0;      ///< Turning::known_off
+  double reversed_off = 0;   ///< Turning::reversed_off
 };
 
 /// Sets every frame's `turned` (0 for the first used frame) and `confidence`, and drops frames that turn out

@@ -19,7 +19,8 @@ namespace {
 
 constexpr double kPairTurn = radians(12);  // apart enough to show the axis, near enough to look alike
 constexpr int kPairs = 48;
-constexpr double kNoisy = 4;  // correlation, in those that chance reaches, below which smoothing pays
+constexpr double kFollowed = 2;  // correlation, in those that chance reaches, that can be trusted
+constexpr double kNoisy = 4;     // correlation, in those that chance reaches, below which smoothing pays
 constexpr std::array kRounds{true, true, false};  // of refinement: the quick ones first
 constexpr double kOffMiddle = radians(0.8);       // an axis nearer to the middle is found from there as well
 
@@ -123,6 +124,20 @@ double contradiction_of(const std::vector<cv::Mat>& images, const Turning& turni
   return PolarPictures(some, turning.axis).contradiction(angles);
 }
 
+/// Sets `known_off` and `reversed_off`.
+void compare_known(const PolarTurning& seen, const std::vector<double>& known, Turning& turning) {
+  if (median(seen.confidence) < kFollowed * seen.floor) return;
+  std::vector<double> off;
+  std::vector<double> reversed;
+  for (std::size_t i = 0; i < known.size(); ++i) {
+    const double turned = known[i] - known[0];
+    off.push_back(std::abs(std::remainder(seen.angles[i] - seen.angles[0] - turned, 2 * kPi)));
+    reversed.push_back(std::abs(std::remainder(seen.angles[i] - seen.angles[0] + turned, 2 * kPi)));
+  }
+  turning.known_off = median(off);
+  turning.reversed_off = median(reversed);
+}
+
 /// From the patches' frame to the view, angles from the first frame.
 void to_view(const Mat3& axes, Turning& turning) {
   turning.axis = axes.transpose() * turning.axis;
@@ -175,11 +190,13 @@ Turning find_axis(std::span<const SurfacePatch> patches, const Mat3& axes, std::
     return turning;
   };
   Turning turning = from(Vec3::UnitZ());
-  const Vec3 other = axis_of_neighbours(images, PolarPictures(images, Vec3::UnitZ()), known);
+  const PolarPictures middle(images, Vec3::UnitZ());
+  const Vec3 other = axis_of_neighbours(images, middle, known);
   if (std::acos(std::min(1.0, other.dot(turning.axis))) > kOffMiddle) {
     const Turning tilted = from(other);
     if (median(tilted.confidence) > median(turning.confidence)) turning = tilted;
   }
+  compare_known(middle.chain(), known, turning);
   turning.contradiction = contradiction_of(images, turning);
   to_view(axes, turning);
   return turning;

@@ -18,6 +18,10 @@ struct Turning {
   double confidence_floor = 0;  ///< correlation that chance alone reaches
   double step_error = 0;        ///< radians, rms of the last refinement
   double contradiction = 0;     ///< radians: PolarPictures::contradiction
+  /// Of angles that were known: the median difference to what registration finds by itself, radians, as they
+  /// are and with their direction reversed. 0 where the surface shows too little to tell.
+  double known_off = 0;
+  double reversed_off = 0;
 };
 
 /// Finds every frame's angle by registering it with the surface all frames have in common, first about the
