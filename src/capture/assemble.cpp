@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "sateen/capture/fill_unseen.h"
 #include "sateen/core/direction.h"
 #include "sateen/core/parallel.h"
 
@@ -15,56 +16,60 @@ namespace {
 constexpr double kWidestBridge = 1.0 / 9;  // turns
 
 struct Sample {
-  double angle = 0;  // turns, within one period
-  float weight = 0;
-  std::array<float, 3> rgb{};
+  double angle = 0;                     // turns, within one period
+  Eigen::Array4f weighted{0, 0, 0, 0};  // weight times 1, r, g, b
+
+  std::array<float, 3> rgb() const {
+    return {weighted[1] / weighted[0], weighted[2] / weighted[0], weighted[3] / weighted[0]};
+  }
 };
 
 /// Weighted sums of a quadratic least-squares fit in u = (angle - target) / half width.
 struct Moments {
-  std::array<double, 5> s{};                 // of u^0 .. u^4
-  std::array<std::array<double, 3>, 3> t{};  // of u^0 .. u^2 times r, g, b
-  double left = 0;
-  double right = 0;
+  /// Of u^0 .. u^2 times 1, r, g, b; of u^3 and u^4 times 1 alone.
+  std::array<Eigen::Array4f, 3> t{Eigen::Array4f::Zero(), Eigen::Array4f::Zero(), Eigen::Array4f::Zero()};
+  float cubes = 0;
+  float fourths = 0;
+  float left = 0;
   int count = 0;
 
-  void add(const Sample& sample, double u) {
-    const double hat = 1 - u * u;
-    const double w = hat * hat * static_cast<double>(sample.weight);
-    double power = w;
-    for (std::size_t p = 0; p < 5; ++p) {
-      s[p] += power;
-      if (p < 3) {
-        for (std::size_t c = 0; c < 3; ++c) t[p][c] += power * static_cast<double>(sample.rgb[c]);
-      }
-      power *= u;
-    }
-    (u < 0 ? left : right) += w;
+  void add(const Sample& sample, float u) {
+    const float hat = 1 - u * u;
+    const Eigen::Array4f w = hat * hat * sample.weighted;
+    const Eigen::Array4f square = u * u * w;
+    t[0] += w;
+    t[1] += u * w;
+    t[2] += square;
+    cubes += u * square[0];
+    fourths += u * u * square[0];
+    if (u < 0) left += w[0];
     ++count;
   }
 
   /// The fit's value at u = 0, of the highest degree the samples carry.
   std::array<float, 3> value() const {
-    std::array<float, 3> result{};
+    const auto of = [](float sum) { return static_cast<double>(sum); };
+    const std::array s{of(t[0][0]), of(t[1][0]), of(t[2][0]), of(cubes), of(fourths)};
     // Shares of the three right-hand sides in the constant term, by Cramer's rule.
     double a = 1 / s[0];
     double b = 0;
     double c = 0;
-    const bool two_sided = left > 0.05 * s[0] && right > 0.05 * s[0];
+    const bool two_sided = of(left) > 0.05 * s[0] && of(left) < 0.95 * s[0];
     const double linear = s[0] * s[2] - s[1] * s[1];
     const double quadratic = s[0] * (s[2] * s[4] - s[3] * s[3]) - s[1] * (s[1] * s[4] - s[2] * s[3]) +
                              s[2] * (s[1] * s[3] - s[2] * s[2]);
     if (two_sided && count >= 4 && quadratic > 1e-4 * s[0] * s[0] * s[0]) {
-      a = (s[2] * s[4] - s[3] * s[3]) / quadratic;
-      b = -(s[1] * s[4] - s[2] * s[3]) / quadratic;
-      c = (s[1] * s[3] - s[2] * s[2]) / quadratic;
+      const double k = 1 / quadratic;
+      a = k * (s[2] * s[4] - s[3] * s[3]);
+      b = k * (s[2] * s[3] - s[1] * s[4]);
+      c = k * (s[1] * s[3] - s[2] * s[2]);
     } else if (two_sided && linear > 1e-4 * s[0] * s[0]) {
       a = s[2] / linear;
       b = -s[1] / linear;
     }
-    for (std::size_t i = 0; i < 3; ++i)
-      result[i] = static_cast<float>(a * t[0][i] + b * t[1][i] + c * t[2][i]);
-    return result;
+    const Eigen::Array4f sum =
+        static_cast<float>(a) * t[0] + static_cast<float>(b) * t[1] + static_cast<float>(c) * t[2];
+    return {sum[1], sum[2], sum[3]};
   }
 };
 
@@ -82,125 +87,104 @@ double spacing_of(const std::vector<Sample>& samples, double period) {
 /// How a texel's light at one angle is known.
 enum class Known { no, bridged, measured };
 
-/// The light at `target` from samples sorted by angle and repeated over three periods. Inside a gap wider
-/// than the fit (a masked seam passing) the two shores are blended; beyond `widest` nothing is known.
-Known fit_at(const std::vector<Sample>& samples, double target, double half_width, double widest,
-             std::array<float, 3>& rgb) {
-  const auto above = std::ranges::lower_bound(samples, target, {}, &Sample::angle);
-  if (above == samples.begin() || above == samples.end()) return Known::no;
-  const auto below = above - 1;
-  const double gap = above->angle - below->angle;
-  if (gap > widest) return Known::no;
-  if (gap > 1.5 * half_width) {
-    const auto mix = static_cast<float>((target - below->angle) / gap);
-    for (std::size_t c = 0; c < 3; ++c) rgb[c] = below->rgb[c] + mix * (above->rgb[c] - below->rgb[c]);
-    return Known::bridged;
-  }
-  Moments moments;
-  auto it = std::ranges::lower_bound(samples, target - half_width, {}, &Sample::angle);
-  for (; it != samples.end() && it->angle < target + half_width; ++it)
-    moments.add(*it, (it->angle - target) / half_width);
-  if (moments.count == 0) return Known::no;
-  rgb = moments.value();
-  return Known::measured;
-}
+/// The light at ascending angles from samples sorted by angle and repeated over three periods.
+class Fit {
+ public:
+  /// Inside a gap wider than the fit (a masked seam passing) the two shores are blended; beyond `widest`
+  /// nothing is known.
+  Fit(const std::vector<Sample>& samples, double half_width, double widest)
+      : samples_(samples), half_width_(half_width), widest_(widest) {}
 
-/// Makes the `filled` texels of the disc as smooth as they can be between those that are known: each the mean
-/// of its neighbours on the disc (Laplace's equation, by Gauss-Seidel with over-relaxation).
-void smooth_filling(Image& slice, const std::vector<std::size_t>& filled) {
-  const int size = slice.width;
-  const auto on_disc = [&](int x, int y) {
-    return x >= 0 && y >= 0 && x < size && y < size && disc_of_pixel(x, y, size).norm() < 1;
-  };
-  struct Texel {
-    float* rgb;
-    std::array<const float*, 4> around;
-    int count;
-  };
-  std::vector<Texel> inside;
-  for (const std::size_t i : filled) {
-    const int x = static_cast<int>(i) % size;
-    const int y = static_cast<int>(i) / size;
-    if (!on_disc(x, y)) continue;
-    Texel texel{slice.pixel(x, y).data(), {}, 0};
-    for (const auto& [u, v] : {std::pair{-1, 0}, {1, 0}, {0, -1}, {0, 1}}) {
-      if (on_disc(x + u, y + v))
-        texel.around[static_cast<std::size_t>(texel.count++)] = slice.pixel(x + u, y + v).data();
+  /// `target`: not below the last one.
+  Known at(double target, std::array<float, 3>& rgb) {
+    while (above_ < samples_.size() && samples_[above_].angle < target) ++above_;
+    if (above_ == 0 || above_ == samples_.size()) return Known::no;
+    const Sample& above = samples_[above_];
+    const Sample& below = samples_[above_ - 1];
+    const double gap = above.angle - below.angle;
+    if (gap > widest_) return Known::no;
+    if (gap > 1.5 * half_width_) {
+      const auto mix = static_cast<float>((target - below.angle) / gap);
+      const auto from = below.rgb();
+      const auto to = above.rgb();
+      for (std::size_t c = 0; c < 3; ++c) rgb[c] = from[c] + mix * (to[c] - from[c]);
+      return Known::bridged;
     }
-    if (texel.count > 0) inside.push_back(texel);
+    while (first_ < samples_.size() && samples_[first_].angle < target - half_width_) ++first_;
+    Moments moments;
+    for (std::size_t i = first_; i < samples_.size() && samples_[i].angle < target + half_width_; ++i)
+      moments.add(samples_[i], static_cast<float>((samples_[i].angle - target) / half_width_));
+    if (moments.count == 0) return Known::no;
+    rgb = moments.value();
+    return Known::measured;
   }
-  for (int round = 0; round < 60; ++round) {
-    const float over = round < 56 ? 1.6f : 1.0f;
-    for (const Texel& texel : inside) {
-      for (int c = 0; c < 3; ++c) {
-        float sum = 0;
-        for (int i = 0; i < texel.count; ++i) sum += texel.around[static_cast<std::size_t>(i)][c];
-        texel.rgb[c] += over * (sum / static_cast<float>(texel.count) - texel.rgb[c]);
+
+ private:
+  const std::vector<Sample>& samples_;
+  double half_width_;
+  double widest_;
+  std::size_t above_ = 0;  // the first that is not below the target
+  std::size_t first_ = 0;  // of those the fit reaches
+};
+
+/// Frames and slices lie far apart in memory: this many texels of a row are fetched and put there together.
+constexpr int kBlock = 16;
+
+/// Each texel's samples, from all frames of a stack.
+class Samples {
+ public:
+  Samples(const RectifiedStack& stack, const SurfaceMask& mask, double first_angle, double period)
+      : stack_(stack), mask_(mask), period_(period), axes_(stack.axis) {
+    for (const double angle : stack.angles) {
+      poles_.push_back(TangentAngle::pole(first_angle, angle));
+      turned_.push_back(direction_of(angle));
+    }
+  }
+
+  /// Of the `count` texels from `first` on, ascending in angle.
+  void collect(std::size_t first, std::size_t count, std::array<std::vector<Sample>, kBlock>& samples) const {
+    std::vector<TangentAngle> tangents;
+    for (std::size_t u = 0; u < count; ++u) {
+      samples[u].clear();
+      tangents.emplace_back(stack_.points[first + u], stack_.frame, axes_);
+    }
+    for (std::size_t f = 0; f < stack_.frames.size(); ++f) {
+      const RectifiedFrame& frame = stack_.frames[f];
+      for (std::size_t u = 0; u < count; ++u) {
+        const std::size_t i = first + u;
+        const SeenPoint& point = stack_.points[i];
+        if (!point.visible || frame.weight[i] == 0) continue;
+        if (mask_.size > 0 && mask_.excludes(body_point(axes_, point.normal, turned_[f]))) continue;
+        Sample sample;
+        sample.angle = wrap(tangents[u].at(poles_[f]), period_);
+        const Half* rgb = &frame.rgb[i * 3];
+        sample.weighted << 1.0f, static_cast<float>(rgb[0]), static_cast<float>(rgb[1]),
+            static_cast<float>(rgb[2]);
+        sample.weighted *= static_cast<float>(frame.weight[i]) / 255.0f;
+        samples[u].push_back(sample);
       }
     }
+    for (std::size_t u = 0; u < count; ++u) std::ranges::sort(samples[u], {}, &Sample::angle);
   }
-}
 
-/// Calls body(index, weight) for the up to eight neighbours of a texel; those across a corner weigh less.
-template <class Body>
-void for_neighbours(int size, std::size_t index, const Body& body) {
-  const int x = static_cast<int>(index) % size;
-  const int y = static_cast<int>(index) / size;
-  for (int v = std::max(0, y - 1); v <= std::min(size - 1, y + 1); ++v) {
-    for (int u = std::max(0, x - 1); u <= std::min(size - 1, x + 1); ++u) {
-      if (u != x || v != y) body(static_cast<std::size_t>(v * size + u), u != x && v != y ? 0.7f : 1.0f);
+ private:
+  const RectifiedStack& stack_;
+  const SurfaceMask& mask_;
+  double period_;
+  AxisFrame axes_;
+  std::vector<Vec2> poles_;   // per frame, as TangentAngle takes it
+  std::vector<Vec2> turned_;  // per frame, as direction_of
+};
+
+/// One period more on either side.
+void repeat(const std::vector<Sample>& samples, double period, std::vector<Sample>& repeated) {
+  repeated.clear();
+  for (const double turn : {-period, 0.0, period}) {
+    for (Sample sample : samples) {
+      sample.angle += turn;
+      repeated.push_back(sample);
     }
   }
-}
-
-/// Grows known texels over unknown ones, ring by ring, as the mean of the known neighbours.
-void grow_known(Image& slice, std::vector<std::uint8_t> known) {
-  constexpr std::uint8_t kWaiting = 255;  // unknown, but next in turn
-  const int size = slice.width;
-  std::vector<std::size_t> ring;
-  const auto queue_unknown_around = [&](std::size_t i, std::vector<std::size_t>& queue) {
-    for_neighbours(size, i, [&](std::size_t j, float) {
-      if (known[j] != 0) return;
-      known[j] = kWaiting;
-      queue.push_back(j);
-    });
-  };
-  for (std::size_t i = 0; i < known.size(); ++i) {
-    if (known[i] != 0 && known[i] != kWaiting) queue_unknown_around(i, ring);
-  }
-  std::vector<std::size_t> next;
-  while (!ring.empty()) {
-    next.clear();
-    for (const std::size_t i : ring) {
-      Vec3f sum(0, 0, 0);
-      float weight = 0;
-      for_neighbours(size, i, [&](std::size_t j, float w) {
-        if (known[j] == 0 || known[j] == kWaiting) return;
-        sum += w * slice.rgb(static_cast<int>(j) % size, static_cast<int>(j) / size);
-        weight += w;
-      });
-      slice.set_rgb(static_cast<int>(i) % size, static_cast<int>(i) / size, sum / weight);
-    }
-    for (const std::size_t i : ring) known[i] = 1;
-    for (const std::size_t i : ring) queue_unknown_around(i, next);
-    ring.swap(next);
-  }
-}
-
-/// Fills what nobody saw: smoothly on the disc, and beyond it so that no filter sees an edge.
-void fill_from_neighbours(Image& slice, std::vector<std::uint8_t> known) {
-  grow_known(slice, known);
-  std::vector<std::size_t> filled;
-  for (std::size_t i = 0; i < known.size(); ++i) {
-    if (known[i] == 0) filled.push_back(i);
-  }
-  smooth_filling(slice, filled);
-  for (const std::size_t i : filled) {
-    const auto texel = static_cast<int>(i);
-    const bool inside = disc_of_pixel(texel % slice.width, texel / slice.width, slice.width).norm() < 1;
-    if (inside) known[i] = 1;
-  }
-  grow_known(slice, std::move(known));
 }
 
 }  // namespace
@@ -210,63 +194,43 @@ AssembledSlices assemble(const RectifiedStack& stack, const SurfaceMask& mask, d
   const int size = stack.size;
   const auto texels = static_cast<std::size_t>(size) * static_cast<std::size_t>(size);
   const double period = 1.0 / symmetry;
-  const AxisFrame axes(stack.axis);
-  std::vector<Vec2> poles;
-  std::vector<Vec2> turned;
-  for (const double angle : stack.angles) {
-    poles.push_back(TangentAngle::pole(first_angle, angle));
-    turned.push_back(direction_of(angle));
-  }
-  const bool masked = mask.size > 0;
+  const Samples all(stack, mask, first_angle, period);
   AssembledSlices result;
-  result.slices.assign(static_cast<std::size_t>(count), Image(size, size, 3));
+  result.slices.resize(static_cast<std::size_t>(count));
+  parallel_for(count,
+               [&](int slice) { result.slices[static_cast<std::size_t>(slice)] = Image(size, size, 3); });
   result.seen.assign(texels * static_cast<std::size_t>(count), 0);
   parallel_for(size, [&](int y) {
-    std::vector<Sample> samples;
+    std::array<std::vector<Sample>, kBlock> samples;
     std::vector<Sample> repeated;
-    for (int x = 0; x < size; ++x) {
-      const auto i = static_cast<std::size_t>(y * size + x);
-      const SeenPoint& point = stack.points[i];
-      if (!point.visible) continue;
-      const TangentAngle tangent(point, stack.frame, axes);
-      samples.clear();
-      for (std::size_t f = 0; f < stack.frames.size(); ++f) {
-        const RectifiedFrame& frame = stack.frames[f];
-        if (frame.weight[i] == 0) continue;
-        if (masked && mask.excludes(body_point(axes, point.normal, turned[f]))) continue;
-        Sample sample;
-        sample.angle = wrap(tangent.at(poles[f]), period);
-        sample.weight = static_cast<float>(frame.weight[i]) / 255.0f;
-        for (std::size_t c = 0; c < 3; ++c) sample.rgb[c] = static_cast<float>(frame.rgb[i * 3 + c]);
-        samples.push_back(sample);
-      }
-      if (samples.size() < 3) continue;
-      std::ranges::sort(samples, {}, &Sample::angle);
-      const double spacing = std::max(spacing_of(samples, period), period / count);
-      repeated.clear();
-      for (const double turn : {-period, 0.0, period}) {
-        for (Sample sample : samples) {
-          sample.angle += turn;
-          repeated.push_back(sample);
+    std::vector<float> light(static_cast<std::size_t>(count * kBlock * 3));
+    std::vector<std::uint8_t> known(static_cast<std::size_t>(count * kBlock));
+    for (int x = 0; x < size; x += kBlock) {
+      const auto first = static_cast<std::size_t>(y * size + x);
+      const auto width = static_cast<std::size_t>(std::min(kBlock, size - x));
+      all.collect(first, width, samples);
+      std::ranges::fill(light, 0.0f);
+      std::ranges::fill(known, std::uint8_t{0});
+      for (std::size_t u = 0; u < width; ++u) {
+        if (samples[u].size() < 3) continue;
+        const double spacing = std::max(spacing_of(samples[u], period), period / count);
+        repeat(samples[u], period, repeated);
+        Fit fit(repeated, 2 * spacing, std::max(4 * spacing, kWidestBridge));
+        for (std::size_t slice = 0; slice < static_cast<std::size_t>(count); ++slice) {
+          std::array<float, 3> rgb{};
+          const Known how = fit.at(period * static_cast<double>(slice) / count, rgb);
+          if (how == Known::no) continue;
+          known[slice * kBlock + u] = how == Known::measured ? 1 : 2;
+          for (std::size_t c = 0; c < 3; ++c) light[(slice * kBlock + u) * 3 + c] = std::max(0.0f, rgb[c]);
         }
       }
-      for (int slice = 0; slice < count; ++slice) {
-        std::array<float, 3> rgb{};
-        const Known known =
-            fit_at(repeated, period * slice / count, 2 * spacing, std::max(4 * spacing, kWidestBridge), rgb);
-        if (known == Known::no) continue;
-        result.slices[static_cast<std::size_t>(slice)].set_rgb(
-            x, y, Vec3f(std::max(0.0f, rgb[0]), std::max(0.0f, rgb[1]), std::max(0.0f, rgb[2])));
-        result.seen[static_cast<std::size_t>(slice) * texels + i] = known == Known::measured ? 1 : 2;
+      for (std::size_t slice = 0; slice < static_cast<std::size_t>(count); ++slice) {
+        std::copy_n(&light[slice * kBlock * 3], width * 3, &result.slices[slice].data[first * 3]);
+        std::copy_n(&known[slice * kBlock], width, &result.seen[slice * texels + first]);
       }
     }
   });
-  parallel_for(count, [&](int slice) {
-    const auto first =
-        result.seen.begin() + static_cast<std::ptrdiff_t>(static_cast<std::size_t>(slice) * texels);
-    fill_from_neighbours(result.slices[static_cast<std::size_t>(slice)],
-                         {first, first + static_cast<std::ptrdiff_t>(texels)});
-  });
+  fill_unseen(result.slices, result.seen);
   double inside = 0;
   double seen = 0;
   for (std::size_t i = 0; i < result.seen.size(); ++i) {

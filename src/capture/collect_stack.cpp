@@ -8,14 +8,24 @@
 
 #include "sateen/capture/standing_still.h"
 #include "sateen/capture/used_frames.h"
+#include "sateen/core/parallel.h"
 
 namespace sateen {
 namespace {
 
 Image preview_of(const Frame& frame) {
   const int factor = (frame.width() + 959) / 960;
-  const Image whole = frame.crop(0, 0, frame.width() / factor * factor, frame.height() / factor * factor);
-  return resized(whole, whole.width / factor, whole.height / factor);
+  Image preview(frame.width() / factor, frame.height() / factor, 3);
+  parallel_for(preview.height, [&](int y) {
+    for (int x = 0; x < preview.width; ++x) {
+      Vec3f sum(0, 0, 0);
+      for (int v = y * factor; v < (y + 1) * factor; ++v) {
+        for (int u = x * factor; u < (x + 1) * factor; ++u) sum += frame.rgb(u, v);
+      }
+      preview.set_rgb(x, y, sum / static_cast<float>(factor * factor));
+    }
+  });
+  return preview;
 }
 
 /// Adds the share of frames in which each texel is clipped to `result`.
@@ -59,14 +69,18 @@ RectifiedStack collect_stack(FrameSource& source, const FirstLook& look, const C
   std::vector<int> indices;
   for (const std::size_t i : used_frames(result.frames)) indices.push_back(static_cast<int>(i));
   result.preview_frame = indices.front();
+  result.preview = preview_of(source.read(result.preview_frame));
+  std::vector<Vec2> centres;
+  for (const int i : indices) centres.push_back(result.frames[static_cast<std::size_t>(i)].centre);
+  const PixelRect sphere = map.region(centres, source.width(), source.height());
   std::vector<RectifiedFrame> frames(result.frames.size());
   std::atomic<int> done = 0;
-  source.visit(indices, [&](int index, const Frame& frame) {
+  const auto take = [&](int index, const Frame& frame) {
     const CaptureFrame& known = result.frames[static_cast<std::size_t>(index)];
     frames[static_cast<std::size_t>(index)] = rectify(map, frame, known.centre, known.gain);
-    if (index == result.preview_frame) result.preview = preview_of(frame);
     report(progress, static_cast<double>(++done) / static_cast<double>(indices.size()));
-  });
+  };
+  source.visit(indices, take, &sphere);
   const auto turned = [&](int i) { return result.frames[static_cast<std::size_t>(i)].turned; };
   std::ranges::sort(indices, {}, turned);
   for (const int i : indices) {

@@ -10,24 +10,23 @@
 namespace sateen {
 namespace {
 
-/// The four pixels around a point and their weights.
-struct Corners {
-  int x0, y0, x1, y1;
+/// The pixel above and left of a point, and how far the point lies from it.
+struct Corner {
+  int x, y;
   float fx, fy;
-};
+  bool last_x, last_y;  // there is no pixel beyond it
 
-Corners corners(double x, double y, int width, int height) {
-  const double cx = std::clamp(x - 0.5, 0.0, width - 1.0);
-  const double cy = std::clamp(y - 0.5, 0.0, height - 1.0);
-  const int x0 = static_cast<int>(cx);
-  const int y0 = static_cast<int>(cy);
-  return {x0,
-          y0,
-          std::min(x0 + 1, width - 1),
-          std::min(y0 + 1, height - 1),
-          static_cast<float>(cx - x0),
-          static_cast<float>(cy - y0)};
-}
+  Corner(const Vec2f& p, int width, int height) {
+    const float cx = std::clamp(p.x() - 0.5f, 0.0f, static_cast<float>(width - 1));
+    const float cy = std::clamp(p.y() - 0.5f, 0.0f, static_cast<float>(height - 1));
+    x = static_cast<int>(cx);
+    y = static_cast<int>(cy);
+    fx = cx - static_cast<float>(x);
+    fy = cy - static_cast<float>(y);
+    last_x = x + 1 == width;
+    last_y = y + 1 == height;
+  }
+};
 
 }  // namespace
 
@@ -67,38 +66,45 @@ Frame::Frame(Picture8 picture, const Response& response)
 Frame::Frame(Image light, float clip)
     : width_(light.width), height_(light.height), light_(std::move(light)), clip_(clip) {}
 
-void Frame::add_grey_row(int x, int y, int factor, std::span<std::uint32_t> sums) const {
+void Frame::add_grey_row(int x, int y, int factor, std::span<int> sums) const {
   if (!light_.empty()) {
     for (std::size_t i = 0; i < sums.size(); ++i) {
       const int first = x + static_cast<int>(i) * factor;
       for (int u = first; u < first + factor; ++u)
-        sums[i] += static_cast<std::uint32_t>(std::clamp(grey(u, y), 0.0f, 1.0f) * kWhite + 0.5f);
+        sums[i] += static_cast<int>(std::clamp(grey(u, y), 0.0f, 1.0f) * kWhite + 0.5f);
     }
     return;
   }
   const std::uint8_t* p = codes_.data() + offset(x, y);
-  for (std::uint32_t& sum : sums) {
-    for (int u = 0; u < factor; ++u, p += 3) sum += quarter_[p[0]] + 2u * quarter_[p[1]] + quarter_[p[2]];
+  if (factor == 1) {
+    for (std::size_t i = 0; i < sums.size(); ++i, p += 3)
+      sums[i] += quarter_[p[0]] + 2 * quarter_[p[1]] + quarter_[p[2]];
+    return;
+  }
+  for (int& sum : sums) {
+    for (int u = 0; u < factor; ++u, p += 3) sum += quarter_[p[0]] + 2 * quarter_[p[1]] + quarter_[p[2]];
   }
 }
 
-Vec3f Frame::rgb_at(double x, double y) const {
-  const Corners c = corners(x, y, width_, height_);
+Vec3f Frame::rgb_at(const Vec2f& p) const {
+  const Corner at(p, width_, height_);
   if (light_.empty()) {
-    const std::uint8_t* top = codes_.data() + offset(c.x0, c.y0);
-    const std::uint8_t* bottom = codes_.data() + offset(c.x0, c.y1);
-    const std::ptrdiff_t right = 3 * (c.x1 - c.x0);
+    const std::uint8_t* top = codes_.data() + offset(at.x, at.y);
+    const std::uint8_t* bottom = at.last_y ? top : top + offset(0, 1);
+    const std::ptrdiff_t right = at.last_x ? 0 : 3;
     Vec3f result;
     for (int i = 0; i < 3; ++i) {
-      const float a = table_[top[i]] + c.fx * (table_[top[i + right]] - table_[top[i]]);
-      const float b = table_[bottom[i]] + c.fx * (table_[bottom[i + right]] - table_[bottom[i]]);
-      result[i] = a + c.fy * (b - a);
+      const float a = table_[top[i]] + at.fx * (table_[top[i + right]] - table_[top[i]]);
+      const float b = table_[bottom[i]] + at.fx * (table_[bottom[i + right]] - table_[bottom[i]]);
+      result[i] = a + at.fy * (b - a);
     }
     return result;
   }
-  const Vec3f top = rgb(c.x0, c.y0) * (1 - c.fx) + rgb(c.x1, c.y0) * c.fx;
-  const Vec3f bottom = rgb(c.x0, c.y1) * (1 - c.fx) + rgb(c.x1, c.y1) * c.fx;
-  return top * (1 - c.fy) + bottom * c.fy;
+  const int x1 = at.last_x ? at.x : at.x + 1;
+  const int y1 = at.last_y ? at.y : at.y + 1;
+  const Vec3f top = rgb(at.x, at.y) * (1 - at.fx) + rgb(x1, at.y) * at.fx;
+  const Vec3f bottom = rgb(at.x, y1) * (1 - at.fx) + rgb(x1, y1) * at.fx;
+  return top * (1 - at.fy) + bottom * at.fy;
 }
 
 Picture8 Frame::take_codes() {

@@ -54,12 +54,12 @@ class Frame {
     return light_.rgb(x, y).maxCoeff() >= clip_;
   }
   /// Bilinear, clamped to the edge; pixel centres at +0.5.
-  Vec3f rgb_at(double x, double y) const;
+  Vec3f rgb_at(const Vec2f& p) const;
 
   /// Adds to each sum the grey() of `factor` pixels of row y, from pixel (x, y) on: sums[i] gets those of
   /// x + i * factor and the factor - 1 after it. kWhite is white.
-  void add_grey_row(int x, int y, int factor, std::span<std::uint32_t> sums) const;
-  static constexpr std::uint32_t kWhite = 65532;
+  void add_grey_row(int x, int y, int factor, std::span<int> sums) const;
+  static constexpr int kWhite = 65532;
 
   /// The picture's rectangle as light with 3 channels.
   Image crop(int x, int y, int width, int height) const;

@@ -17,6 +17,7 @@ namespace {
 
 constexpr double kRegistrationNoise = radians(0.25);
 constexpr double kDoubtful = radians(0.6);  // above it is no registration noise
+constexpr double kWrong = radians(10);      // above it known angles are not those of the pictures
 constexpr const char* kNoAngle = "its angle cannot be found";
 
 /// The angles that need not be found, one for each of `indices`; empty when the pictures have to tell. Those
@@ -103,6 +104,8 @@ FrameAngles find_frame_angles(std::vector<FrameNotes>& notes, const Mat3& axes, 
   FrameAngles found;
   found.axis = turning.axis;
   found.contradiction = turning.contradiction;
+  found.known_off = turning.known_off;
+  found.reversed_off = turning.reversed_off;
   if (known.empty()) {
     drop_unregistered(turning, indices, frames);
     found.equal_steps = recognise_equal_steps(frames);
@@ -143,7 +146,19 @@ void check_turn(const std::vector<CaptureFrame>& frames, const FrameAngles& turn
         "it more evenly",
         degrees(found.widest)));
   }
-  if (turn.contradiction > kDoubtful) {
+  if (turn.known_off > kWrong) {
+    const bool reversed = turn.reversed_off < kWrong;
+    warnings.push_back(
+        reversed
+            ? std::string(
+                  "in the pictures the sphere turns the other way than the angles given: the table is "
+                  "wrong. Swap --direction (of a live capture: --reverse), or find the angles with "
+                  "--angles pictures")
+            : fmt::format("the angles given are not those of the pictures, which differ from them by {:.0f} "
+                          "degrees (median): the table is wrong. Check --angles, or find them with --angles "
+                          "pictures",
+                          degrees(turn.known_off)));
+  } else if (turn.contradiction > kDoubtful) {
     warnings.push_back(fmt::format(
         "the frames' angles are doubtful: parts of the sphere contradict them by {:.1f} degrees. The axis "
         "may "

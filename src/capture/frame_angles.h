@@ -14,10 +14,12 @@ struct FrameAngles {
   bool equal_steps = false;  ///< recognised, and then used exactly
   double turned = 0;         ///< radians from the first to the last used frame
   double contradiction = 0;  ///< Turning::contradiction
+  double known_off = 0;      ///< Turning::known_off
+  double reversed_off = 0;   ///< Turning::reversed_off
 };
 
 /// Sets every frame's `turned` (0 for the first used frame) and `confidence`, and drops frames that turn out
-/// blurred, repeated or not to be registered. Uses up the notes' patches. `axes` as in surface_patch;
+/// blurred, repeated or not to be registered. Uses up the notes' patches. `axes` as in PatchMap;
 /// `stride` as in FrameSource. Throws Error when too few frames are left, the surface shows too little to be
 /// followed, or other than one angle a frame is given.
 FrameAngles find_frame_angles(std::vector<FrameNotes>& notes, const Mat3& axes, const CaptureOptions& options,

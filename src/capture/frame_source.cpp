@@ -110,13 +110,13 @@ std::string FrameSource::name(int index) const {
   return video_ ? fmt::format("{}#{}", file, index * stride_) : file;
 }
 
-Frame FrameSource::decode(int index, Picture8 memory) const {
+Frame FrameSource::decode(int index, Picture8 memory, const PixelRect* only) const {
   const auto one = [&](const fs::path& file) {
     const std::string extension = extension_of(file);
     const bool floats = extension == ".exr" || extension == ".hdr";
     const bool jpeg = extension == ".jpg" || extension == ".jpeg";
     if (jpeg || (!floats && read_image_info(file).bits == 8)) {
-      read_picture8(file, memory);
+      only == nullptr ? read_picture8(file, memory) : read_picture8(file, *only, memory);
       return Frame(std::exchange(memory, {}), response_);
     }
     Image image = with_channels(read_data(file), 3);
@@ -133,7 +133,8 @@ Frame FrameSource::decode(int index, Picture8 memory) const {
   return merge_brackets(group, exposure_times_);
 }
 
-void FrameSource::visit(std::span<const int> indices, const std::function<void(int, const Frame&)>& body) {
+void FrameSource::visit(std::span<const int> indices, const std::function<void(int, const Frame&)>& body,
+                        const PixelRect* only) {
   struct Item {
     int index = 0;
     Picture8 picture;
@@ -173,8 +174,8 @@ void FrameSource::visit(std::span<const int> indices, const std::function<void(i
         }
         return item;
       }) & tbb::make_filter<Item, void>(tbb::filter_mode::parallel, [&](Item item) {
-        Frame frame =
-            video_ ? Frame(std::move(item.picture), response_) : decode(item.index, std::move(item.picture));
+        Frame frame = video_ ? Frame(std::move(item.picture), response_)
+                             : decode(item.index, std::move(item.picture), only);
         if (frame.width() != width_ || frame.height() != height_) {
           throw Error(fmt::format("{}: is {} x {} pixels, the first frame is {} x {}; all must be alike",
                                   path(item.index).string(), frame.width(), frame.height(), width_, height_));

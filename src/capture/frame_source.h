@@ -42,13 +42,16 @@ class FrameSource {
   /// Calls body(index, frame) for each of `indices` (ascending), from several threads at once, with only a
   /// few frames in memory at any time. Throws what decoding and `body` throw; an Error for a picture of
   /// another size.
-  void visit(std::span<const int> indices, const std::function<void(int, const Frame&)>& body);
+  /// With `only` (not null, inside the picture) the body looks at nothing else: of photographs the rest may
+  /// not be there.
+  void visit(std::span<const int> indices, const std::function<void(int, const Frame&)>& body,
+             const PixelRect* only = nullptr);
 
   /// Frame `index` alone; of a video everything before it is decoded too.
   Frame read(int index);
 
  private:
-  Frame decode(int index, Picture8 memory = {}) const;
+  Frame decode(int index, Picture8 memory = {}, const PixelRect* only = nullptr) const;
   void spread(int frames);     // the used ones over all `frames` there are
   void found_end(int frames);  // of a video, after `frames`
 

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "sateen/core/direction.h"
+#include "sateen/core/parallel.h"
 
 namespace sateen {
 namespace {
@@ -71,9 +72,8 @@ void make_table(const RectifiedStack& stack, double first_angle, const CaptureOp
   result.table = AmcTable(options.size, options.slices, symmetry);
   result.table.encoding = options.encoding;
   result.table.isotropic = !options.symmetry && result.symmetry.isotropic;
-  for (int i = 0; i < options.slices; ++i) {
-    set_slice_image(result.table, i, slices.slices[static_cast<std::size_t>(i)]);
-  }
+  parallel_for(options.slices,
+               [&](int i) { set_slice_image(result.table, i, slices.slices[static_cast<std::size_t>(i)]); });
   quantise(result.table);
   result.seen_share = slices.seen_share;
   result.seen = std::move(slices.seen);

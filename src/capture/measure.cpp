@@ -142,6 +142,7 @@ std::vector<FrameNotes> measure_frames(FrameSource& source, const FirstLook& loo
   const GreyRegion region{
       static_cast<int>(look.centre.x() - margin), static_cast<int>(look.centre.y() - margin),
       static_cast<int>(look.centre.x() + margin) + 1, static_cast<int>(look.centre.y() + margin) + 1};
+  const PatchMap patches(look.camera, sphere_at(look.camera, look.centre, radius), axes, patch_size);
   std::vector<FrameNotes> notes(static_cast<std::size_t>(source.count()));
   std::vector<int> indices(notes.size());
   std::iota(indices.begin(), indices.end(), 0);
@@ -160,8 +161,7 @@ std::vector<FrameNotes> measure_frames(FrameSource& source, const FirstLook& loo
       note.support = offset.support;
       if (offset.support > 0.25) note.centre += offset.shift;
     }
-    note.patch =
-        surface_patch(grey, look.camera, sphere_at(look.camera, note.centre, radius), axes, patch_size);
+    note.patch = patches.patch(grey, note.centre);
     note.read = true;
     report(progress, static_cast<double>(++done) / static_cast<double>(indices.size()));
   });

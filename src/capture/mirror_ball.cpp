@@ -38,7 +38,7 @@ Image mirror_ball_environment(const Frame& frame, const Camera& camera, const Sp
       // At the very rim the picture mixes in what lies behind.
       if (normal.dot(to_eye) < 0.06) continue;
       const Vec2 p = camera.project(ball.centre + normal);
-      map.set_rgb(x, y, scale * frame.rgb_at(p.x(), p.y()));
+      map.set_rgb(x, y, scale * frame.rgb_at(p.cast<float>()));
       known[static_cast<std::size_t>(y * width + x)] = 1;
     }
   });

@@ -3,6 +3,7 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "sateen/capture/median.h"
@@ -15,44 +16,51 @@ namespace {
 constexpr int kAzimuths = 240;
 constexpr double kStep = 0.5;  // pixels between samples of a profile
 
+constexpr std::array<double, 256> kLight = [] {
+  std::array<double, 256> light{};
+  for (std::size_t code = 0; code < light.size(); ++code)
+    light[code] = static_cast<double>(code * code) / (255.0 * 255.0);
+  return light;
+}();
+
 double light_of(std::uint8_t code) {
-  return code * code / (255.0 * 255.0);
+  return kLight[code];
 }
 
-/// Bilinear light of a grey picture, clamped to the edge. Edges are mixtures of light, not of codes.
-double light_at(const GreyPicture& picture, double x, double y) {
-  const double cx = std::clamp(x - 0.5, 0.0, picture.width - 1.0);
-  const double cy = std::clamp(y - 0.5, 0.0, picture.height - 1.0);
-  const int x0 = static_cast<int>(cx);
-  const int y0 = static_cast<int>(cy);
-  const int x1 = std::min(x0 + 1, picture.width - 1);
-  const int y1 = std::min(y0 + 1, picture.height - 1);
-  const double fx = cx - x0;
-  const double fy = cy - y0;
-  const double top = (1 - fx) * light_of(picture.at(x0, y0)) + fx * light_of(picture.at(x1, y0));
-  const double bottom = (1 - fx) * light_of(picture.at(x0, y1)) + fx * light_of(picture.at(x1, y1));
-  return (1 - fy) * top + fy * bottom;
+/// The four pixels of a picture around a point, clamped to the edge, and how far it lies from the first.
+struct Corners {
+  std::array<std::size_t, 4> pixels;
+  double fx, fy;
+
+  Corners(int width, int height, const Vec2& p) {
+    const double cx = std::clamp(p.x() - 0.5, 0.0, width - 1.0);
+    const double cy = std::clamp(p.y() - 0.5, 0.0, height - 1.0);
+    const int x0 = static_cast<int>(cx);
+    const int y0 = static_cast<int>(cy);
+    const auto row = static_cast<std::size_t>(width);
+    const std::size_t right = x0 + 1 < width ? 1 : 0;
+    const std::size_t down = y0 + 1 < height ? row : 0;
+    const std::size_t first = static_cast<std::size_t>(y0) * row + static_cast<std::size_t>(x0);
+    pixels = {first, first + right, first + down, first + down + right};
+    fx = cx - x0;
+    fy = cy - y0;
+  }
+  double between(double a, double b, double c, double d) const {
+    return (1 - fy) * ((1 - fx) * a + fx * b) + fy * ((1 - fx) * c + fx * d);
+  }
+};
+
+/// Edges are mixtures of light, not of codes.
+double light_at(const GreyPicture& picture, const Corners& at) {
+  const auto light = [&](std::size_t corner) { return light_of(picture.codes[at.pixels[corner]]); };
+  return at.between(light(0), light(1), light(2), light(3));
 }
 
-/// Bilinear over the plate's known pixels; negative when any of the four is hidden.
-double plate_at(const Plate& plate, double x, double y) {
-  const double cx = std::clamp(x - 0.5, 0.0, plate.width - 1.0);
-  const double cy = std::clamp(y - 0.5, 0.0, plate.height - 1.0);
-  const int x0 = static_cast<int>(cx);
-  const int y0 = static_cast<int>(cy);
-  const int x1 = std::min(x0 + 1, plate.width - 1);
-  const int y1 = std::min(y0 + 1, plate.height - 1);
-  const auto value = [&](int u, int v) {
-    return static_cast<double>(plate.light[static_cast<std::size_t>(v * plate.width + u)]);
-  };
-  const double a = value(x0, y0);
-  const double b = value(x1, y0);
-  const double c = value(x0, y1);
-  const double d = value(x1, y1);
-  if (std::min({a, b, c, d}) < 0) return -1;
-  const double fx = cx - x0;
-  const double fy = cy - y0;
-  return (1 - fy) * ((1 - fx) * a + fx * b) + fy * ((1 - fx) * c + fx * d);
+/// Over the plate's known pixels; negative when any of the four is hidden.
+double plate_at(const Plate& plate, const Corners& at) {
+  const auto light = [&](std::size_t corner) { return static_cast<double>(plate.light[at.pixels[corner]]); };
+  if (std::min({light(0), light(1), light(2), light(3)}) < 0) return -1;
+  return at.between(light(0), light(1), light(2), light(3));
 }
 
 struct EdgePoint {
@@ -158,6 +166,7 @@ std::vector<EdgePoint> find_edges(const GreyPicture& frame, double gain, const P
   const double light_gain = gain * gain;
   std::vector<std::vector<double>> profiles(kAzimuths, std::vector<double>(n));
   std::vector<Vec2> outward(kAzimuths);
+  std::vector<double> lights(n);
   for (std::size_t i = 0; i < profiles.size(); ++i) {
     std::vector<double>& difference = profiles[i];
     const Vec2 rim = sphere.outline_pixel(camera, 2 * kPi * static_cast<double>(i) / kAzimuths);
@@ -165,17 +174,14 @@ std::vector<EdgePoint> find_edges(const GreyPicture& frame, double gain, const P
     double background = -1;
     for (std::size_t j = n; j-- > 0;) {
       const Vec2 p = rim + (static_cast<double>(j) * kStep - reach) * outward[i];
-      const double known = plate_at(plate, p.x(), p.y());
+      const Corners at(frame.width, frame.height, p);
+      const double known = plate_at(plate, at);
       // Behind the sphere the background is unknown: it goes on as it was last seen.
       if (known >= 0) background = known;
-      difference[j] = light_at(frame, p.x(), p.y()) / light_gain - std::max(0.0, background);
+      lights[j] = light_at(frame, at) / light_gain;
+      difference[j] = lights[j] - std::max(0.0, background);
     }
-    if (background < 0) {
-      for (std::size_t j = 0; j < n; ++j) {
-        const Vec2 p = rim + (static_cast<double>(j) * kStep - reach) * outward[i];
-        difference[j] = light_at(frame, p.x(), p.y()) / light_gain;
-      }
-    }
+    if (background < 0) difference = lights;
   }
   quieten(profiles, plate.noise);
   std::vector<EdgePoint> edges;

@@ -54,6 +54,24 @@ RectifyMap::RectifyMap(const Camera& camera, const SphereView& mean, int size, T
   });
 }
 
+PixelRect RectifyMap::region(std::span<const Vec2> centres, int width, int height) const {
+  const Vec2f first = (centres[0] - centre_).cast<float>();
+  Eigen::AlignedBox2f shifts(first);
+  for (const Vec2& centre : centres) shifts.extend(Vec2f((centre - centre_).cast<float>()));
+  Eigen::AlignedBox2f reach;
+  for (const Sample& sample : grid_) {
+    if (!sample.seen) continue;
+    for (const auto corner : {Eigen::AlignedBox2f::BottomLeft, Eigen::AlignedBox2f::BottomRight,
+                              Eigen::AlignedBox2f::TopLeft, Eigen::AlignedBox2f::TopRight})
+      reach.extend(sample.moved(shifts.corner(corner)));
+  }
+  // Bilinear samples touch the pixel before and behind. Some may lie outside of the picture.
+  const auto inside = [](float at, int end) { return std::clamp(static_cast<int>(std::floor(at)), 0, end); };
+  const int left = inside(reach.min().x() - 1, width - 1);
+  const int top = inside(reach.min().y() - 1, height - 1);
+  return {left, top, inside(reach.max().x() + 2, width) - left, inside(reach.max().y() + 2, height) - top};
+}
+
 RectifiedFrame rectify(const RectifyMap& map, const Frame& frame, const Vec2& centre, const Vec3& gain) {
   const int size = map.size_;
   const int n = map.samples_;
@@ -78,12 +96,11 @@ RectifiedFrame rectify(const RectifyMap& map, const Frame& frame, const Vec2& ce
         for (int u = 0; u < n; ++u) {
           const RectifyMap::Sample& s = row[u];
           if (!s.seen) continue;
-          const float px = s.x + shift.x() * s.along_x_x + shift.y() * s.along_y_x;
-          const float py = s.y + shift.x() * s.along_x_y + shift.y() * s.along_y_y;
-          if (masked && map.mask_.hides(px, py)) continue;
-          sum += frame.rgb_at(static_cast<double>(px), static_cast<double>(py));
-          const int ix = std::clamp(static_cast<int>(px), 0, frame.width() - 1);
-          const int iy = std::clamp(static_cast<int>(py), 0, frame.height() - 1);
+          const Vec2f p = s.moved(shift);
+          if (masked && map.mask_.hides(p.x(), p.y())) continue;
+          sum += frame.rgb_at(p);
+          const int ix = std::clamp(static_cast<int>(p.x()), 0, frame.width() - 1);
+          const int iy = std::clamp(static_cast<int>(p.y()), 0, frame.height() - 1);
           clipped += frame.clipped(ix, iy) ? 1 : 0;
           ++seen;
         }

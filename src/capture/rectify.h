@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -42,6 +43,9 @@ class RectifyMap {
     return points_[static_cast<std::size_t>(y) * static_cast<std::size_t>(size_) +
                    static_cast<std::size_t>(x)];
   }
+  /// The rectangle, inside a picture of the size given, of all pixels that rectify() looks at in frames whose
+  /// spheres are at `centres` (pixels, at least one).
+  PixelRect region(std::span<const Vec2> centres, int width, int height) const;
   /// Samples that fall on it in a frame are not seen there.
   void hide(StillMask mask) { mask_ = std::move(mask); }
 
@@ -51,6 +55,11 @@ class RectifyMap {
     float along_x_x, along_x_y;  // how it moves when the centre moves a pixel right,
     float along_y_x, along_y_y;  // and a pixel down
     bool seen;
+
+    Vec2f moved(const Vec2f& shift) const {
+      return {x + shift.x() * along_x_x + shift.y() * along_y_x,
+              y + shift.x() * along_x_y + shift.y() * along_y_y};
+    }
   };
   int size_ = 0;
   int samples_ = 1;  // a texel's footprint is averaged from samples_ x samples_ bilinear samples

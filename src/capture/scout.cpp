@@ -2,6 +2,7 @@
 #include "sateen/capture/scout.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -37,26 +38,23 @@ GreyPicture grey_picture(const Frame& frame, int factor) {
 }
 
 void grey_picture(const Frame& frame, int factor, const GreyRegion& region, GreyPicture& picture) {
-  // The root of every light there is.
-  static const std::vector<std::uint8_t> codes = [] {
-    std::vector<std::uint8_t> table(Frame::kWhite + 1);
-    for (std::size_t i = 0; i < table.size(); ++i)
-      table[i] = static_cast<std::uint8_t>(255 * std::sqrt(static_cast<double>(i) / Frame::kWhite) + 0.5);
-    return table;
-  }();
   picture.width = frame.width() / factor;
   picture.height = frame.height() / factor;
   picture.codes.resize(static_cast<std::size_t>(picture.width) * static_cast<std::size_t>(picture.height));
   const int first = std::max(0, region.left);
   const int end = std::min(picture.width, region.right);
-  const auto pixels = static_cast<std::uint32_t>(factor * factor);
-  std::vector<std::uint32_t> sums(static_cast<std::size_t>(std::max(0, end - first)));
+  if (first >= end) return;
+  const auto scale =
+      static_cast<float>(255.0 * 255.0 / (static_cast<double>(Frame::kWhite) * factor * factor));
+  Eigen::ArrayXi sums(end - first);
   for (int y = std::max(0, region.top); y < std::min(picture.height, region.bottom); ++y) {
-    std::ranges::fill(sums, 0u);
-    for (int v = 0; v < factor; ++v) frame.add_grey_row(first * factor, y * factor + v, factor, sums);
-    std::transform(sums.begin(), sums.end(),
-                   picture.codes.begin() + static_cast<std::ptrdiff_t>(y) * picture.width + first,
-                   [&](std::uint32_t sum) { return codes[sum / pixels]; });
+    sums.setZero();
+    for (int v = 0; v < factor; ++v)
+      frame.add_grey_row(first * factor, y * factor + v, factor,
+                         {sums.data(), static_cast<std::size_t>(sums.size())});
+    std::uint8_t* codes = &picture.codes[static_cast<std::size_t>(y * picture.width + first)];
+    Eigen::Map<Eigen::Array<std::uint8_t, Eigen::Dynamic, 1>>(codes, sums.size()) =
+        ((sums.cast<float>() * scale).sqrt() + 0.5f).cast<int>().cast<std::uint8_t>();
   }
 }
 
@@ -86,10 +84,6 @@ std::vector<float> gains(std::span<const GreyPicture> frames, const std::vector<
   });
   return result;
 }
-
-}  // namespace
-
-namespace {
 
 void measure_activity(std::span<const GreyPicture> frames, Scouting& scouting) {
   const int width = frames[0].width;
@@ -214,9 +208,11 @@ std::vector<Blob> active_blobs(const Scouting& s, int width, int height, double 
     if (blob.circle.radius < 5 || blob.circle.radius > 0.6 * std::max(width, height)) continue;
     double inside = 0;
     double active = 0;
-    for (int y = 0; y < height; ++y) {
-      for (int x = 0; x < width; ++x) {
-        if ((Vec2(x + 0.5, y + 0.5) - blob.circle.centre).norm() > blob.circle.radius) continue;
+    const Vec2& c = blob.circle.centre;
+    const double r = blob.circle.radius;
+    for (int y = std::max(0, static_cast<int>(c.y() - r)); y < std::min<double>(height, c.y() + r); ++y) {
+      for (int x = std::max(0, static_cast<int>(c.x() - r)); x < std::min<double>(width, c.x() + r); ++x) {
+        if ((Vec2(x + 0.5, y + 0.5) - c).squaredNorm() > r * r) continue;
         ++inside;
         active += mask.at<std::uint8_t>(y, x) != 0 ? 1 : 0;
       }
@@ -259,11 +255,17 @@ double background_motion(const cv::Mat& first, const cv::Mat& second) {
 
 void check_camera(std::span<const GreyPicture> frames, const Circle& sphere, Scouting& s) {
   const std::size_t n = frames.size();
-  const cv::Mat first = background_detail(frames[0], sphere);
+  constexpr std::size_t kCompared = 4;
+  std::array<cv::Mat, kCompared + 1> details;
+  const auto frame_of = [&](std::size_t i) { return i * (n - 1) / kCompared; };
+  parallel_for(static_cast<int>(details.size()), [&](int i) {
+    const auto at = static_cast<std::size_t>(i);
+    details[at] = background_detail(frames[frame_of(at)], sphere);
+  });
   std::size_t last_still = 0;
-  for (std::size_t i = 1; i <= 4; ++i) {
-    const std::size_t f = i * (n - 1) / 4;
-    const double moved = background_motion(first, background_detail(frames[f], sphere));
+  for (std::size_t i = 1; i <= kCompared; ++i) {
+    const std::size_t f = frame_of(i);
+    const double moved = background_motion(details[0], details[i]);
     s.moved = std::max(s.moved, moved);
     if (moved > 1.5) {
       throw Error(fmt::format(
@@ -295,8 +297,14 @@ Scouting find_sphere(std::span<const GreyPicture> frames) {
   Blob best;
   std::vector<Blob> others;
   // Noise that hides the weak parts hides faint shadows as well: only then it pays to go closer to it.
-  for (const double times : {s.noise > 1.5 ? 2.0 : 4.0, 4.0, 7.0, 12.0}) {
-    const std::vector<Blob> blobs = active_blobs(s, width, height, times * s.noise);
+  std::vector<double> thresholds{4, 7, 12};
+  if (s.noise > 1.5) thresholds.insert(thresholds.begin(), 2);
+  std::vector<std::vector<Blob>> blobs_at(thresholds.size());
+  parallel_for(static_cast<int>(thresholds.size()), [&](int i) {
+    const auto at = static_cast<std::size_t>(i);
+    blobs_at[at] = active_blobs(s, width, height, thresholds[at] * s.noise);
+  });
+  for (const std::vector<Blob>& blobs : blobs_at) {
     for (const Blob& blob : blobs) {
       const bool round = blob.circle.support > 0.4 && blob.filled > 0.35;
       const double score = blob.circle.support * std::sqrt(blob.area);

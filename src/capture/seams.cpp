@@ -30,9 +30,7 @@ SurfaceMask find_seams(const RectifiedStack& stack, const CaptureOptions& option
   SurfaceMask painted;
   if (!options.mask.empty()) painted = painted_mask(options, result);
   if (!options.find_blemishes) return painted;
-  SurfaceMask found = find_blemishes(stack, painted);
-  // Once more without what was found, so that it no longer pulls the medians.
-  if (found.share > 0) found = find_blemishes(stack, united(painted, found));
+  const SurfaceMask found = find_blemishes(stack, painted);
   if (found.share > 0.4) {
     result.warnings.push_back(
         fmt::format("the surface is so uneven that {:.0f} % of it would count as seam; nothing was masked. "

@@ -21,53 +21,60 @@ Mat3 turn(const Vec3& axis, double angle) {
   return Eigen::AngleAxisd(angle, axis).toRotationMatrix();
 }
 
-/// Calls body(pixel of the surface (the disc at angle 0), its normal, the frame's value there) for every
-/// `every`-th pixel that a frame turned by `rotation` shows inside its own disc.
+constexpr int kBlock = PatchNormals::kBlock;
+using Block = Eigen::Array<float, kBlock, 1>;
+
+/// What a frame shows of a block of surface pixels.
+struct ShownBlock {
+  std::span<const int> pixel;  // of the surface (the disc at angle 0)
+  Eigen::Array<float, kBlock, 3> normal;
+  Block inside;  // 1: the frame shows it inside its own disc; 0: it does not
+  Block seen;    // the frame's value; 0 where it is not inside
+};
+
+/// Calls body(ShownBlock) for all of `normals`, as a frame turned by `rotation` shows them.
 template <class Body>
-void for_shown(const PatchNormals& normals, const cv::Mat& image, const Mat3& rotation, int every,
-               const Body& body) {
+void for_shown(const PatchNormals& normals, const cv::Mat& image, const Mat3& rotation, const Body& body) {
   const Eigen::Matrix3f turned = rotation.cast<float>();
   const int size = normals.size();
+  const auto scale = static_cast<float>(size / (2 * kPatchReach));
+  const float middle = 0.5f * static_cast<float>(size) - 0.5f;
   const float* pixels = image.ptr<float>(0);
-  float x = 0;
-  float y = 0;
-  const std::span<const PatchNormals::Entry> entries = normals.entries();
-  for (std::size_t i = 0; i < entries.size(); i += static_cast<std::size_t>(every)) {
-    const PatchNormals::Entry& entry = entries[i];
-    if (!normals.pixel(turned * entry.normal, x, y)) continue;
-    const int x0 = static_cast<int>(x);
-    const int y0 = static_cast<int>(y);
-    const float fx = x - static_cast<float>(x0);
-    const float fy = y - static_cast<float>(y0);
-    const float* p = pixels + y0 * size + x0;
-    const float top = p[0] + fx * (p[1] - p[0]);
-    const float bottom = p[size] + fx * (p[size + 1] - p[size]);
-    body(entry.index, entry.normal, top + fy * (bottom - top));
+  ShownBlock block;
+  for (Eigen::Index first = 0; first < normals.normals().rows(); first += kBlock) {
+    block.pixel = std::span(normals.pixels()).subspan(static_cast<std::size_t>(first), kBlock);
+    block.normal = normals.normals().middleRows<kBlock>(first);
+    const auto along = [&](int axis) -> Block {
+      return turned(axis, 0) * block.normal.col(0) + turned(axis, 1) * block.normal.col(1) +
+             turned(axis, 2) * block.normal.col(2);
+    };
+    const Block nx = along(0);
+    const Block ny = along(1);
+    block.inside =
+        (along(2) > 0 && nx.square() + ny.square() <= static_cast<float>(kReach)).template cast<float>();
+    const Block x = block.inside * (middle + scale * nx);
+    const Block y = block.inside * (middle - scale * ny);
+    for (int i = 0; i < kBlock; ++i) {
+      const int x0 = static_cast<int>(x[i]);
+      const int y0 = static_cast<int>(y[i]);
+      const float fx = x[i] - static_cast<float>(x0);
+      const float fy = y[i] - static_cast<float>(y0);
+      const float* p = pixels + y0 * size + x0;
+      const float top = p[0] + fx * (p[1] - p[0]);
+      const float bottom = p[size] + fx * (p[size + 1] - p[size]);
+      block.seen[i] = block.inside[i] * (top + fy * (bottom - top));
+    }
+    body(block);
   }
 }
 
-/// A dozen sums of many small floats: added up in floats a few hundred at a time, then in doubles.
-class Sums {
- public:
-  using Terms = Eigen::Array<float, 12, 1>;
-  void add(const Terms& terms) {
-    part_ += terms;
-    if (++count_ % 256 == 0) flush();
-  }
-  Eigen::Array<double, 12, 1> total() {
-    flush();
-    return total_;
-  }
-
- private:
-  void flush() {
-    total_ += part_.cast<double>();
-    part_.setZero();
-  }
-  Terms part_ = Terms::Zero();
-  Eigen::Array<double, 12, 1> total_ = Eigen::Array<double, 12, 1>::Zero();
-  int count_ = 0;
-};
+/// What `picture` has at the block's pixels that are inside; 0 at the others.
+Block values_at(const cv::Mat& picture, const ShownBlock& block) {
+  const float* values = picture.ptr<float>(0);
+  Block result;
+  for (int i = 0; i < kBlock; ++i) result[i] = values[block.pixel[static_cast<std::size_t>(i)]];
+  return result * block.inside;
+}
 
 }  // namespace
 
@@ -85,23 +92,22 @@ std::vector<cv::Mat> moving_detail(std::span<const SurfacePatch> patches) {
   return images;
 }
 
-PatchNormals::PatchNormals(int size) : size_(size) {
+PatchNormals::PatchNormals(int size, int every) : size_(size) {
+  std::vector<Vec3f> normals;
+  int count = 0;
   for (int y = 0; y < size; ++y) {
     for (int x = 0; x < size; ++x) {
       const Vec2 disc = kPatchReach * disc_of_pixel(x, y, size);
-      if (disc.squaredNorm() > kReach) continue;
-      entries_.push_back({y * size + x, normal_on_disc(disc).cast<float>()});
+      if (disc.squaredNorm() > kReach || count++ % every != 0) continue;
+      pixels_.push_back(y * size + x);
+      normals.emplace_back(normal_on_disc(disc).cast<float>());
     }
   }
-}
-
-bool PatchNormals::pixel(const Vec3f& normal, float& x, float& y) const {
-  if (normal.z() <= 0 || normal.head<2>().squaredNorm() > static_cast<float>(kReach)) return false;
-  const float scale = static_cast<float>(size_) / static_cast<float>(2 * kPatchReach);
-  const float middle = 0.5f * static_cast<float>(size_) - 0.5f;
-  x = middle + normal.x() * scale;
-  y = middle - normal.y() * scale;
-  return true;
+  const std::size_t padded = (normals.size() + kBlock - 1) / kBlock * kBlock;
+  pixels_.resize(padded, 0);
+  normals.resize(padded, Vec3f(0, 0, -1));
+  normals_.resize(static_cast<Eigen::Index>(padded), 3);
+  for (std::size_t i = 0; i < padded; ++i) normals_.row(static_cast<Eigen::Index>(i)) = normals[i].array();
 }
 
 SurfacePicture::SurfacePicture(cv::Mat picture) : detail(std::move(picture)) {
@@ -111,30 +117,29 @@ SurfacePicture::SurfacePicture(cv::Mat picture) : detail(std::move(picture)) {
 }
 
 BodyRotation register_frame(const PatchNormals& normals, const SurfacePicture& surface, const cv::Mat& frame,
-                            const Mat3& turned, int every) {
-  // The six different entries of the normal matrix, the right side, and the correlation's parts.
-  Sums all;
-  const float* along_x = surface.along_x.ptr<float>(0);
-  const float* along_y = surface.along_y.ptr<float>(0);
-  const float* common = surface.detail.ptr<float>(0);
-  for_shown(normals, frame, turned, every, [&](int at, const Vec3f& normal, float seen) {
-    const float dx = along_x[at];
-    const float dy = along_y[at];
-    const float residual = seen - common[at];
-    const float w = 1 / (1 + residual * residual * 100);
+                            const Mat3& turned) {
+  // The six different entries of the normal matrix, the right side, and the correlation's parts: in floats
+  // over a block, in doubles over all.
+  Eigen::Array<double, 12, 1> sums = Eigen::Array<double, 12, 1>::Zero();
+  for_shown(normals, frame, turned, [&](const ShownBlock& block) {
+    const Block dx = values_at(surface.along_x, block);
+    const Block dy = values_at(surface.along_y, block);
+    const Block common = values_at(surface.detail, block);
+    const Block residual = block.seen - common;
+    const Block w = (1 + 100 * residual.square()).inverse();
     // The frame shows what lies at the surface point turned back by a small body rotation w: T(n - w x n).
-    const float a = normal.z() * dy;
-    const float b = -normal.z() * dx;
-    const float c = normal.y() * dx - normal.x() * dy;
-    const float wa = w * a;
-    const float wb = w * b;
-    const float wc = w * c;
-    Sums::Terms terms;
-    terms << wa * a, wa * b, wa * c, wb * b, wb * c, wc * c, wa * residual, wb * residual, wc * residual,
-        seen * common[at], seen * seen, common[at] * common[at];
-    all.add(terms);
+    const Block a = block.normal.col(2) * dy;
+    const Block b = -block.normal.col(2) * dx;
+    const Block c = block.normal.col(1) * dx - block.normal.col(0) * dy;
+    const Block wa = w * a;
+    const Block wb = w * b;
+    const Block wc = w * c;
+    Eigen::Array<float, 12, 1> part;
+    part << (wa * a).sum(), (wa * b).sum(), (wa * c).sum(), (wb * b).sum(), (wb * c).sum(), (wc * c).sum(),
+        (wa * residual).sum(), (wb * residual).sum(), (wc * residual).sum(), (block.seen * common).sum(),
+        block.seen.square().sum(), common.square().sum();
+    sums += part.cast<double>();
   });
-  const Eigen::Array<double, 12, 1> sums = all.total();
   Mat3 normal_matrix;
   normal_matrix << sums[0], sums[1], sums[2], sums[1], sums[3], sums[4], sums[2], sums[4], sums[5];
   normal_matrix += Mat3::Identity() * 1e-9;
@@ -146,7 +151,7 @@ BodyRotation register_frame(const PatchNormals& normals, const SurfacePicture& s
 }
 
 SurfacePicture common_surface(const PatchNormals& normals, const std::vector<cv::Mat>& images,
-                              const Vec3& axis, const std::vector<double>& angles) {
+                              const Vec3& axis, const std::vector<double>& angles, std::size_t every) {
   const int size = normals.size();
   constexpr int kSlots = 4;  // partial sums, the same whatever the number of threads
   std::array<cv::Mat, kSlots> sums;
@@ -157,10 +162,13 @@ SurfacePicture common_surface(const PatchNormals& normals, const std::vector<cv:
     weights[slot] = cv::Mat::zeros(size, size, CV_32F);
     auto* sum = sums[slot].ptr<float>(0);
     auto* weight = weights[slot].ptr<float>(0);
-    for (std::size_t f = slot; f < images.size(); f += kSlots) {
-      for_shown(normals, images[f], turn(axis, angles[f]), 1, [&](int at, const Vec3f&, float seen) {
-        sum[at] += seen;
-        weight[at] += 1;
+    for (std::size_t f = slot * every; f < images.size(); f += kSlots * every) {
+      for_shown(normals, images[f], turn(axis, angles[f]), [&](const ShownBlock& block) {
+        for (int k = 0; k < kBlock; ++k) {
+          const int at = block.pixel[static_cast<std::size_t>(k)];
+          sum[at] += block.seen[k];
+          weight[at] += block.inside[k];
+        }
       });
     }
   });
@@ -170,18 +178,28 @@ SurfacePicture common_surface(const PatchNormals& normals, const std::vector<cv:
   return SurfacePicture(surface);
 }
 
-void refine_turning(const PatchNormals& normals, const std::vector<cv::Mat>& images, bool refine_angles,
-                    int every, Turning& turning) {
+namespace {
+
+constexpr int kQuickEvery = 2;     // pixel
+constexpr std::size_t kMany = 96;  // frames of which a part shows the surface as well
+
+}  // namespace
+
+TurningRefinement::TurningRefinement(const std::vector<cv::Mat>& images)
+    : images_(images), all_(images[0].cols), some_(images[0].cols, kQuickEvery) {}
+
+void TurningRefinement::round(bool refine_angles, bool quick, Turning& turning) const {
   Vec3& axis = turning.axis;
   std::vector<double>& angles = turning.angles;
-  const SurfacePicture surface = common_surface(normals, images, axis, angles);
-  const std::size_t n = images.size();
+  const std::size_t n = images_.size();
+  const SurfacePicture surface = common_surface(all_, images_, axis, angles, quick && n >= kMany ? 2 : 1);
   turning.strength.resize(n);
   turning.confidence.resize(n);
   std::vector<Vec3> rotation(n, Vec3::Zero());
   parallel_for(static_cast<int>(n), [&](int i) {
     const auto f = static_cast<std::size_t>(i);
-    const BodyRotation found = register_frame(normals, surface, images[f], turn(axis, angles[f]), every);
+    const BodyRotation found =
+        register_frame(quick ? some_ : all_, surface, images_[f], turn(axis, angles[f]));
     rotation[f] = found.rotation;
     turning.strength[f] = found.strength;
     turning.confidence[f] = found.correlation;

@@ -13,23 +13,25 @@ namespace sateen {
 /// Patches as floats, less what stands still in them (shading, the stand, the lens): that is no surface.
 std::vector<cv::Mat> moving_detail(std::span<const SurfacePatch> patches);
 
-/// The pixels of a patch's disc and the normals they show; and the way back.
+/// The pixels of a patch's disc and the normals they show, in columns so that a block of pixels shares its
+/// arithmetic.
 class PatchNormals {
  public:
-  explicit PatchNormals(int size);
+  static constexpr int kBlock = 64;
 
-  struct Entry {
-    int index;
-    Vec3f normal;
-  };
+  /// Every `every`-th pixel.
+  explicit PatchNormals(int size, int every = 1);
+
   int size() const { return size_; }
-  const std::vector<Entry>& entries() const { return entries_; }
-  /// Patch pixel (centres at whole numbers) of a normal in front; false outside the patch's disc.
-  bool pixel(const Vec3f& normal, float& x, float& y) const;
+  /// y * size + x of each pixel; then zeros up to a whole block.
+  const std::vector<int>& pixels() const { return pixels_; }
+  /// Row i is the normal of pixels()[i]; those beyond the last look away from the camera.
+  const Eigen::ArrayX3f& normals() const { return normals_; }
 
  private:
   int size_ = 0;
-  std::vector<Entry> entries_;
+  std::vector<int> pixels_;
+  Eigen::ArrayX3f normals_;
 };
 
 /// The rotation by which one frame differs from a picture of the surface.
@@ -47,18 +49,27 @@ struct SurfacePicture {
   cv::Mat along_y;  ///< and y, which points up, per unit of disc
 };
 
-/// One Lucas-Kanade step for a frame turned by about `turned`, from every `every`-th pixel.
+/// One Lucas-Kanade step for a frame turned by about `turned`, from the pixels of `normals`.
 BodyRotation register_frame(const PatchNormals& normals, const SurfacePicture& surface, const cv::Mat& frame,
-                            const Mat3& turned, int every = 1);
+                            const Mat3& turned);
 
-/// What all frames have in common, seen at angle 0.
+/// What every `every`-th frame has in common, seen at angle 0.
 SurfacePicture common_surface(const PatchNormals& normals, const std::vector<cv::Mat>& images,
-                              const Vec3& axis, const std::vector<double>& angles);
+                              const Vec3& axis, const std::vector<double>& angles, std::size_t every = 1);
 
 /// One round for all frames: their common surface, each one's rotation against it (register_frame), then the
 /// axis (patch frame) that explains what the rotations share. Updates everything in `turning`, whose axis is
-/// in the patches' frame here.
-void refine_turning(const PatchNormals& normals, const std::vector<cv::Mat>& images, bool refine_angles,
-                    int every, Turning& turning);
+/// in the patches' frame here. A `quick` round looks at a part of the pixels and, where there are many, of
+/// the frames.
+class TurningRefinement {
+ public:
+  explicit TurningRefinement(const std::vector<cv::Mat>& images);
+  void round(bool refine_angles, bool quick, Turning& turning) const;
+
+ private:
+  const std::vector<cv::Mat>& images_;
+  PatchNormals all_;
+  PatchNormals some_;
+};
 
 }  // namespace sateen

@@ -5,6 +5,8 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <functional>
+#include <limits>
 #include <span>
 
 #include <opencv2/imgproc.hpp>
@@ -18,13 +20,6 @@ namespace {
 constexpr double kNear = 0.06;      // radians: neighbours closer than this may still show the blemish itself
 constexpr double kFar = 0.40;       // radians: beyond, the shading has changed
 constexpr double kSmallest = 0.12;  // log light: below this it is the material's own unevenness
-
-/// The middle value; reorders.
-double middle_of(std::vector<float>& values) {
-  const auto half = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::ranges::nth_element(values, half);
-  return static_cast<double>(*half);
-}
 
 /// The light below which a sample is noise: 2 % of the light that 95 % of the samples stay below.
 float dark_floor(const RectifiedStack& stack) {
@@ -45,21 +40,48 @@ constexpr std::int8_t kUnknown = -128;
 constexpr std::size_t kMostNeighbours = 16;  // a median needs no more
 constexpr int kBlock = 8;
 
-/// The middle values (the upper of two) of kBlock columns at once: a selection network, so that several
-/// medians share each instruction. `rows` has 1 to kMostNeighbours pointers, each to kBlock values.
-std::array<float, kBlock> middle_of_columns(std::span<const float* const> rows) {
-  std::array<std::array<float, kBlock>, kMostNeighbours> v;
-  for (std::size_t i = 0; i < rows.size(); ++i) std::copy_n(rows[i], kBlock, v[i].begin());
-  for (std::size_t lowest = 0; lowest <= rows.size() / 2; ++lowest) {
-    for (std::size_t i = rows.size() - 1; i > lowest; --i) {
-      for (std::size_t x = 0; x < kBlock; ++x) {
-        const float smaller = std::min(v[i][x], v[i - 1][x]);
-        v[i][x] = std::max(v[i][x], v[i - 1][x]);
-        v[i - 1][x] = smaller;
+/// A value for each of kBlock texels beside each other.
+using Columns = Eigen::Array<float, kBlock, 1>;
+
+/// What one frame has for a block of texels.
+struct BlockLight {
+  std::array<Columns, 3> light;               // log, per channel
+  std::array<std::uint8_t, kBlock> usable{};  // 0: unseen, 1: seen, 2: seen but known to be a blemish
+  bool whole = false;                         // all are 1
+};
+
+std::size_t usable_in(std::span<const BlockLight* const> rows, std::size_t column) {
+  std::size_t count = 0;
+  for (const BlockLight* row : rows) count += row->usable[column] == 1 ? 1 : 0;
+  return count;
+}
+
+/// The middle values (the upper of two) of the usable ones in each column of `channel`: a selection network,
+/// so that several medians share each instruction. `rows`: 1 to kMostNeighbours.
+Columns middle_of_columns(std::span<const BlockLight* const> rows, std::size_t channel) {
+  const std::size_t n = rows.size();
+  std::array<Columns, kMostNeighbours> v;
+  for (std::size_t i = 0; i < n; ++i) v[i] = rows[i]->light[channel];
+  if (!std::ranges::all_of(rows, &BlockLight::whole)) {
+    // The missing ones go below and above, so that the middle of all stays the middle of the others.
+    constexpr float kInfinity = std::numeric_limits<float>::infinity();
+    for (std::size_t column = 0; column < kBlock; ++column) {
+      std::size_t below = n / 2 - usable_in(rows, column) / 2;
+      for (std::size_t i = 0; i < n; ++i) {
+        if (rows[i]->usable[column] == 1) continue;
+        v[i][static_cast<Eigen::Index>(column)] = below > 0 ? -kInfinity : kInfinity;
+        if (below > 0) --below;
       }
     }
   }
-  return v[rows.size() / 2];
+  for (std::size_t lowest = 0; lowest <= n / 2; ++lowest) {
+    for (std::size_t i = n - 1; i > lowest; --i) {
+      const Columns smaller = v[i].min(v[i - 1]);
+      v[i] = v[i].max(v[i - 1]);
+      v[i - 1] = smaller;
+    }
+  }
+  return v[n / 2];
 }
 
 /// Some forty frames agree as well as all of them.
@@ -82,15 +104,19 @@ std::vector<float> log_light(float dark) {
 }
 
 /// How much each rectified sample differs from the median of the angles around it, natural log, 100 a unit,
-/// clamped to
-/// +-1.2; kUnknown in the dark and where too few neighbours are seen. Index (frame * texels + texel) * 3 +
-/// channel.
-std::vector<std::int8_t> deviations(const RectifiedStack& stack, const SurfaceMask& already) {
+/// clamped to +-1.2; kUnknown in the dark and where too few neighbours are seen. Index (frame * texels +
+/// texel)
+/// * 3 + channel.
+using Deviations = std::vector<std::int8_t>;
+
+/// Brings `result`, empty or of a part of `already`, up to date with what is `already` known to be a blemish.
+void find_deviations(const RectifiedStack& stack, const SurfaceMask& already, Deviations& result) {
   const std::size_t frames = stack.frames.size();
   const std::size_t texels = stack.points.size();
   const AxisFrame axes(stack.axis);
   const float dark = dark_floor(stack);
-  std::vector<std::int8_t> result(frames * texels * 3, kUnknown);
+  const bool again = !result.empty();
+  result.resize(frames * texels * 3, kUnknown);
   const std::size_t step = frame_step(frames);
   // The neighbours of a frame along the turn are the same for all texels.
   std::vector<std::vector<std::size_t>> neighbours(frames);
@@ -112,82 +138,67 @@ std::vector<std::int8_t> deviations(const RectifiedStack& stack, const SurfaceMa
   std::vector<Vec2> turned;
   for (const double angle : stack.angles) turned.push_back(direction_of(angle));
   parallel_for(stack.size, [&](int row) {
-    // Of one block: log light [frame][channel][column]; usable [frame][column]: 0 unseen, 1 seen, 2 seen but
-    // known to be a blemish.
-    using Columns = std::array<float, kBlock>;
-    std::vector<std::array<Columns, 3>> light(frames);
-    std::vector<std::array<std::uint8_t, kBlock>> usable(frames);
-    std::vector<std::uint8_t> whole(frames);  // 1: usable in all columns
-    std::vector<const float*> rows;
-    std::vector<float> around;
+    std::vector<BlockLight> light(frames);
+    std::vector<const BlockLight*> around;
     for (int block = 0; block < blocks; ++block) {
       const int first = block * kBlock;
-      bool any = false;
+      bool any = false;  // seen at all
+      bool excluded = false;
       for (std::size_t f = 0; f < frames; ++f) {
         const RectifiedFrame& frame = stack.frames[f];
-        whole[f] = 1;
+        BlockLight& here = light[f];
+        here.whole = true;
         for (int u = 0; u < kBlock; ++u) {
-          const auto column = static_cast<std::size_t>(u);
           const auto i = static_cast<std::size_t>(row) * static_cast<std::size_t>(stack.size) +
                          static_cast<std::size_t>(std::min(first + u, stack.size - 1));
-          std::uint8_t& use = usable[f][column];
+          std::uint8_t& use = here.usable[static_cast<std::size_t>(u)];
           use = first + u < stack.size && stack.points[i].visible && frame.weight[i] > 127 ? 1 : 0;
           if (use != 0 && already.size > 0 &&
               already.excludes(body_point(axes, stack.points[i].normal, turned[f])))
             use = 2;
           any = any || use != 0;
-          if (use != 1) whole[f] = 0;
-          for (std::size_t c = 0; c < 3; ++c) {
-            light[f][c][column] = use == 0 ? 0 : logarithm[bits_of(frame.rgb[i * 3 + c])];
-          }
+          excluded = excluded || use == 2;
+          here.whole = here.whole && use == 1;
+          for (std::size_t c = 0; c < 3; ++c)
+            here.light[c][u] = use == 0 ? 0 : logarithm[bits_of(frame.rgb[i * 3 + c])];
         }
       }
-      if (!any) continue;
-      const auto note = [&](std::size_t f, std::size_t c, std::size_t column, float expected) {
-        if (usable[f][column] == 0 || expected < darkest) return;
-        const auto i = static_cast<std::size_t>(row) * static_cast<std::size_t>(stack.size) +
-                       static_cast<std::size_t>(first) + column;
-        const float deviation = std::clamp(light[f][c][column] - expected, -1.2f, 1.2f);
-        result[(f * texels + i) * 3 + c] = static_cast<std::int8_t>(std::lround(deviation * 100));
-      };
+      if (!any || (again && !excluded)) continue;
       for (std::size_t f = 0; f < frames; f += step) {
-        const bool all_seen =
-            neighbours[f].size() >= 3 &&
-            std::ranges::all_of(neighbours[f], [&](std::size_t g) { return whole[g] != 0; });
+        around.clear();
+        for (const std::size_t g : neighbours[f]) around.push_back(&light[g]);
+        std::array<bool, kBlock> known{};  // usable, and enough of the angles around as well
+        for (std::size_t column = 0; column < kBlock; ++column)
+          known[column] = light[f].usable[column] != 0 && usable_in(around, column) >= 3;
         for (std::size_t c = 0; c < 3; ++c) {
-          if (all_seen) {
-            rows.clear();
-            for (const std::size_t g : neighbours[f]) rows.push_back(light[g][c].data());
-            const Columns expected = middle_of_columns(rows);
-            for (std::size_t column = 0; column < kBlock; ++column) note(f, c, column, expected[column]);
-            continue;
-          }
+          const Columns expected = middle_of_columns(around, c);
+          const Columns deviation = (light[f].light[c] - expected).max(-1.2f).min(1.2f);
           for (std::size_t column = 0; column < kBlock; ++column) {
-            if (usable[f][column] == 0) continue;
-            around.clear();
-            for (const std::size_t g : neighbours[f]) {
-              if (usable[g][column] == 1) around.push_back(light[g][c][column]);
-            }
-            if (around.size() >= 3) note(f, c, column, static_cast<float>(middle_of(around)));
+            const auto u = static_cast<Eigen::Index>(column);
+            const auto i = static_cast<std::size_t>(row) * static_cast<std::size_t>(stack.size) +
+                           static_cast<std::size_t>(first) + column;
+            if (first + static_cast<int>(column) >= stack.size) continue;
+            result[(f * texels + i) * 3 + c] = known[column] && expected[u] >= darkest
+                                                   ? static_cast<std::int8_t>(std::lround(deviation[u] * 100))
+                                                   : kUnknown;
           }
         }
       }
     }
   });
-  return result;
 }
 
 /// The deviation that nearly all frames agree on at each body pixel, in the channel where it is strongest; 0
 /// where nothing is known. A highlight crosses a place of the body in some frames, a blemish is there in all.
-std::vector<float> body_deviation(const RectifiedStack& stack, const SurfaceMask& already, int size) {
+std::vector<float> body_deviation(const RectifiedStack& stack, const Deviations& deviation, int size) {
   const std::size_t frames = stack.frames.size();
   const std::size_t texels = stack.points.size();
-  const std::vector<std::int8_t> deviation = deviations(stack, already);
   // Where on the table a body direction is seen as it turns: through the map from normals across the axis to
   // texels.
   const AxisFrame axes(stack.axis);
   std::vector<std::int32_t> texel_of(static_cast<std::size_t>(size) * static_cast<std::size_t>(size) * 4, -1);
   const int fine = 2 * size;
+  std::vector<float> nearest(texel_of.size(), std::numeric_limits<float>::infinity());
   const Vec2 at_start = direction_of(0);
   const std::size_t step = frame_step(frames);
   std::vector<Vec2> turned;
@@ -195,20 +206,15 @@ std::vector<float> body_deviation(const RectifiedStack& stack, const SurfaceMask
   for (std::size_t i = 0; i < texels; ++i) {
     if (!stack.points[i].visible || stack.points[i].normal.dot(stack.axis) <= 0) continue;
     const Vec2 p = pixel_of_disc(body_point(axes, stack.points[i].normal, at_start), fine);
-    for (int v = -2; v <= 1; ++v) {
-      for (int u = -2; u <= 1; ++u) {
-        const int x = static_cast<int>(std::lround(p.x())) + u;
-        const int y = static_cast<int>(std::lround(p.y())) + v;
-        if (x < 0 || y < 0 || x >= fine || y >= fine) continue;
-        std::int32_t& slot = texel_of[static_cast<std::size_t>(y * fine + x)];
-        const auto distance = [&](std::int32_t t) {
-          return (pixel_of_disc(body_point(axes, stack.points[static_cast<std::size_t>(t)].normal, at_start),
-                                fine) -
-                  Vec2(x + 0.5, y + 0.5))
-              .squaredNorm();
-        };
-        if (slot < 0 || distance(static_cast<std::int32_t>(i)) < distance(slot))
-          slot = static_cast<std::int32_t>(i);
+    const auto right = static_cast<int>(std::lround(p.x()));
+    const auto below = static_cast<int>(std::lround(p.y()));
+    for (int y = std::max(0, below - 2); y < std::min(fine, below + 2); ++y) {
+      for (int x = std::max(0, right - 2); x < std::min(fine, right + 2); ++x) {
+        const auto slot = static_cast<std::size_t>(y * fine + x);
+        const auto distance = static_cast<float>((p - Vec2(x + 0.5, y + 0.5)).squaredNorm());
+        if (distance >= nearest[slot]) continue;
+        nearest[slot] = distance;
+        texel_of[slot] = static_cast<std::int32_t>(i);
       }
     }
   }
@@ -285,10 +291,12 @@ bool SurfaceMask::masks(const Vec2& body) const {
   return size > 0 && masked[body_pixel(body, size)] != 0;
 }
 
-SurfaceMask find_blemishes(const RectifiedStack& stack, const SurfaceMask& already) {
+namespace {
+
+SurfaceMask blemishes_of(const RectifiedStack& stack, const Deviations& deviations) {
   SurfaceMask mask;
   mask.size = stack.size;
-  mask.deviation = body_deviation(stack, already, mask.size);
+  mask.deviation = body_deviation(stack, deviations, mask.size);
 
   mask.masked.assign(mask.deviation.size(), 0);
   const double high = 2 * kSmallest;
@@ -327,6 +335,18 @@ SurfaceMask find_blemishes(const RectifiedStack& stack, const SurfaceMask& alrea
   }
   finish(mask);
   return mask;
+}
+
+}  // namespace
+
+SurfaceMask find_blemishes(const RectifiedStack& stack, const SurfaceMask& already) {
+  Deviations deviations;
+  find_deviations(stack, already, deviations);
+  const SurfaceMask found = blemishes_of(stack, deviations);
+  if (found.share == 0) return found;
+  // Once more without what was found, so that it no longer pulls the medians.
+  find_deviations(stack, united(already, found), deviations);
+  return blemishes_of(stack, deviations);
 }
 
 SurfaceMask mask_from_painting(const Image& painting, const Camera& camera, const SphereView& sphere,

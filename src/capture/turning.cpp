@@ -19,13 +19,10 @@ namespace {
 
 constexpr double kPairTurn = radians(12);  // apart enough to show the axis, near enough to look alike
 constexpr int kPairs = 48;
-constexpr double kNoisy = 4;  // correlation, in those that chance reaches, below which smoothing pays
-constexpr std::array kRounds{2, 2, 1};       // of refinement: every how many pixels tell
-constexpr double kOffMiddle = radians(0.8);  // an axis nearer to the middle is found from there as well
-
-float linear_light(std::uint8_t code) {
-  return static_cast<float>(code) * static_cast<float>(code) * (1 / (255.0f * 255.0f));
-}
+constexpr double kFollowed = 2;  // correlation, in those that chance reaches, that can be trusted
+constexpr double kNoisy = 4;     // correlation, in those that chance reaches, below which smoothing pays
+constexpr std::array kRounds{true, true, false};  // of refinement: the quick ones first
+constexpr double kOffMiddle = radians(0.8);       // an axis nearer to the middle is found from there as well
 
 std::vector<cv::Mat> smoothed(const std::vector<cv::Mat>& images, const std::vector<std::size_t>& wanted,
                               double sigma) {
@@ -62,7 +59,8 @@ Vec3 axis_of_neighbours(const std::vector<cv::Mat>& images, const PolarPictures&
   if (pairs.size() < 6) return Vec3::UnitZ();
   std::ranges::sort(wanted);
   wanted.erase(std::ranges::unique(wanted).begin(), wanted.end());
-  const PatchNormals normals(images[0].cols);
+  const PatchNormals some(images[0].cols, 2);
+  const PatchNormals few(images[0].cols, 4);
   const std::vector<cv::Mat> soft = smoothed(images, wanted, images[0].cols / 80.0);
   std::vector<Vec2> tilts(pairs.size(), Vec2(0, 0));
   std::vector<double> trust(pairs.size(), 0);
@@ -73,10 +71,10 @@ Vec3 axis_of_neighbours(const std::vector<cv::Mat>& images, const PolarPictures&
     const SurfacePicture coarse(soft[still]);
     const SurfacePicture fine(images[still]);
     BodyRotation step;
-    // A first guess for refine_turning: a part of the pixels will do.
+    // A first guess for TurningRefinement: a part of the pixels will do.
     for (int round = 0; round < 8; ++round) {
-      step = round < 5 ? register_frame(normals, coarse, soft[turned], rotation, 4)
-                       : register_frame(normals, fine, images[turned], rotation, 2);
+      step = round < 5 ? register_frame(few, coarse, soft[turned], rotation)
+                       : register_frame(some, fine, images[turned], rotation);
       const double size = step.rotation.norm();
       if (size > radians(4)) return;
       if (size > 0) {
@@ -108,9 +106,36 @@ Turning turning_about(const std::vector<cv::Mat>& images, const PolarTurning& st
   Turning turning;
   turning.axis = axis;
   turning.angles = start.angles;
-  const PatchNormals normals(images[0].cols);
-  for (const int every : kRounds) refine_turning(normals, images, true, every, turning);
+  const TurningRefinement refinement(images);
+  for (const bool quick : kRounds) refinement.round(true, quick, turning);
   return turning;
+}
+
+/// PolarPictures::contradiction, which as a median needs no more than some of the frames.
+double contradiction_of(const std::vector<cv::Mat>& images, const Turning& turning) {
+  constexpr std::size_t kEnough = 64;
+  const std::size_t step = std::max<std::size_t>(1, images.size() / kEnough);
+  std::vector<cv::Mat> some;
+  std::vector<double> angles;
+  for (std::size_t i = 0; i < images.size(); i += step) {
+    some.push_back(images[i]);
+    angles.push_back(turning.angles[i]);
+  }
+  return PolarPictures(some, turning.axis).contradiction(angles);
+}
+
+/// Sets `known_off` and `reversed_off`.
+void compare_known(const PolarTurning& seen, const std::vector<double>& known, Turning& turning) {
+  if (median(seen.confidence) < kFollowed * seen.floor) return;
+  std::vector<double> off;
+  std::vector<double> reversed;
+  for (std::size_t i = 0; i < known.size(); ++i) {
+    const double turned = known[i] - known[0];
+    off.push_back(std::abs(std::remainder(seen.angles[i] - seen.angles[0] - turned, 2 * kPi)));
+    reversed.push_back(std::abs(std::remainder(seen.angles[i] - seen.angles[0] + turned, 2 * kPi)));
+  }
+  turning.known_off = median(off);
+  turning.reversed_off = median(reversed);
 }
 
 /// From the patches' frame to the view, angles from the first frame.
@@ -121,58 +146,6 @@ void to_view(const Mat3& axes, Turning& turning) {
 }
 
 }  // namespace
-
-SurfacePatch surface_patch(const GreyPicture& frame, const Camera& camera, const SphereView& sphere,
-                           const Mat3& axes, int size) {
-  cv::Mat light = cv::Mat::zeros(size, size, CV_32F);
-  cv::Mat inside = cv::Mat::zeros(size, size, CV_32F);
-  const Mat3 to_view = axes.transpose();
-  for (int y = 0; y < size; ++y) {
-    for (int x = 0; x < size; ++x) {
-      const Vec2 disc = kPatchReach * disc_of_pixel(x, y, size);
-      const double r2 = disc.squaredNorm();
-      if (r2 > kPatchReach * kPatchReach) continue;
-      const Vec3 normal = to_view * Vec3(disc.x(), disc.y(), std::sqrt(1 - r2));
-      const Vec2 at = camera.project(sphere.centre + normal);
-      const double cx = std::clamp(at.x() - 0.5, 0.0, frame.width - 1.001);
-      const double cy = std::clamp(at.y() - 0.5, 0.0, frame.height - 1.001);
-      const int x0 = static_cast<int>(cx);
-      const int y0 = static_cast<int>(cy);
-      const auto fx = static_cast<float>(cx - x0);
-      const auto fy = static_cast<float>(cy - y0);
-      const float top = linear_light(frame.at(x0, y0)) * (1 - fx) + linear_light(frame.at(x0 + 1, y0)) * fx;
-      const float bottom =
-          linear_light(frame.at(x0, y0 + 1)) * (1 - fx) + linear_light(frame.at(x0 + 1, y0 + 1)) * fx;
-      light.at<float>(y, x) = top + fy * (bottom - top);
-      inside.at<float>(y, x) = 1;
-    }
-  }
-  cv::Mat around;
-  cv::Mat share;
-  const double sigma = size / 120.0;
-  cv::GaussianBlur(light, around, {}, sigma);
-  cv::GaussianBlur(inside, share, {}, sigma);
-  SurfacePatch patch;
-  patch.size = size;
-  patch.detail.assign(static_cast<std::size_t>(size) * static_cast<std::size_t>(size), 0);
-  double squares = 0;
-  double count = 0;
-  for (int y = 0; y < size; ++y) {
-    for (int x = 0; x < size; ++x) {
-      if (inside.at<float>(y, x) == 0) continue;
-      const float mean = around.at<float>(y, x) / share.at<float>(y, x);
-      // In the dark the detail is noise: the floor keeps it small.
-      const float detail = (light.at<float>(y, x) - mean) / (mean + 0.01f);
-      const float bounded = std::clamp(detail, -1.0f, 1.0f);
-      patch.detail[static_cast<std::size_t>(y * size + x)] =
-          static_cast<std::int8_t>(bounded * 127 + (bounded < 0 ? -0.5f : 0.5f));
-      squares += static_cast<double>(bounded * bounded);
-      ++count;
-    }
-  }
-  patch.sharpness = std::sqrt(squares / std::max(1.0, count));
-  return patch;
-}
 
 Turning find_turning(std::span<const SurfacePatch> patches, const Mat3& axes) {
   std::vector<cv::Mat> images = moving_detail(patches);
@@ -197,7 +170,7 @@ Turning find_turning(std::span<const SurfacePatch> patches, const Mat3& axes) {
       start = about;
     }
   }
-  turning.contradiction = PolarPictures(images, turning.axis).contradiction(turning.angles);
+  turning.contradiction = contradiction_of(images, turning);
   turning.confidence = start.confidence;
   turning.confidence_floor = start.floor;
   to_view(axes, turning);
@@ -207,22 +180,24 @@ Turning find_turning(std::span<const SurfacePatch> patches, const Mat3& axes) {
 Turning find_axis(std::span<const SurfacePatch> patches, const Mat3& axes, std::span<const double> angles,
                   bool refine_angles) {
   const std::vector<cv::Mat> images = moving_detail(patches);
-  const PatchNormals normals(images[0].cols);
+  const TurningRefinement refinement(images);
   const std::vector<double> known(angles.begin(), angles.end());
   const auto from = [&](const Vec3& axis) {
     Turning turning;
     turning.axis = axis;
     turning.angles = known;
-    for (const int every : kRounds) refine_turning(normals, images, refine_angles, every, turning);
+    for (const bool quick : kRounds) refinement.round(refine_angles, quick, turning);
     return turning;
   };
   Turning turning = from(Vec3::UnitZ());
-  const Vec3 other = axis_of_neighbours(images, PolarPictures(images, Vec3::UnitZ()), known);
+  const PolarPictures middle(images, Vec3::UnitZ());
+  const Vec3 other = axis_of_neighbours(images, middle, known);
   if (std::acos(std::min(1.0, other.dot(turning.axis))) > kOffMiddle) {
     const Turning tilted = from(other);
     if (median(tilted.confidence) > median(turning.confidence)) turning = tilted;
   }
-  turning.contradiction = PolarPictures(images, turning.axis).contradiction(turning.angles);
+  compare_known(middle.chain(), known, turning);
+  turning.contradiction = contradiction_of(images, turning);
   to_view(axes, turning);
   return turning;
 }

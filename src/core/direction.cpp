@@ -36,7 +36,18 @@ Mat3 rotation_between(const Vec3& from, const Vec3& to) {
 }
 
 Mat3 eye_frame(const Vec3& towards_eye) {
-  return rotation_between(towards_eye, Vec3::UnitZ());
+  const double c = towards_eye.z();
+  constexpr double kOpposite = -0.999;  // near it the axis of the rotation is badly known
+  if (c < kOpposite) return rotation_between(towards_eye, Vec3::UnitZ());
+  // Rodrigues' formula about towards_eye x z, whose length is the sine.
+  const double x = towards_eye.x();
+  const double y = towards_eye.y();
+  const double k = 1 / (1 + c);
+  Mat3 rotation;
+  rotation << c + k * y * y, -k * x * y, -x,  //
+      -k * x * y, c + k * x * x, -y,          //
+      x, y, c;
+  return rotation;
 }
 
 Vec3 seen_normal(const Vec3& eye_normal) {

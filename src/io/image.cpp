@@ -6,8 +6,6 @@
 #include <cmath>
 #include <memory>
 
-#include <OpenImageIO/imagebuf.h>
-#include <OpenImageIO/imagebufalgo.h>
 #include <OpenImageIO/imageio.h>
 #include <fmt/format.h>
 
@@ -100,13 +98,21 @@ void decode_srgb(Image& image, int steps) {
 }
 
 Image turned_upright(const Image& image, int orientation) {
-  OIIO::ImageSpec flat(image.width, image.height, image.channels, OIIO::TypeDesc::FLOAT);
-  flat["Orientation"] = orientation;
-  // The buffer only looks at the pixels, though its interface does not promise it.
-  const OIIO::ImageBuf turned =
-      OIIO::ImageBufAlgo::reorient(OIIO::ImageBuf(flat, const_cast<float*>(image.data.data())));
-  Image result(turned.spec().width, turned.spec().height, image.channels);
-  turned.get_pixels(OIIO::ROI::All(), OIIO::TypeDesc::FLOAT, result.data.data());
+  // Not OpenImageIO's reorient(), which takes 5 and 7 for each other (its issue 4661).
+  const bool transposed = orientation >= 5;
+  const bool from_right = orientation == 2 || orientation == 3 || orientation == 7 || orientation == 8;
+  const bool from_below = orientation == 3 || orientation == 4 || orientation == 6 || orientation == 7;
+  Image result(transposed ? image.height : image.width, transposed ? image.width : image.height,
+               image.channels);
+  for (int y = 0; y < result.height; ++y) {
+    for (int x = 0; x < result.width; ++x) {
+      const int u = transposed ? y : x;
+      const int v = transposed ? x : y;
+      std::ranges::copy(
+          image.pixel(from_right ? image.width - 1 - u : u, from_below ? image.height - 1 - v : v),
+          result.pixel(x, y).begin());
+    }
+  }
   return result;
 }
 

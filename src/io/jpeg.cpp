@@ -81,12 +81,32 @@ unsigned exif_orientation(const jpeg_decompress_struct& info) {
   return 1;
 }
 
+/// The part of a picture that is decoded.
+struct Band {
+  JDIMENSION first_column = 0;
+  JDIMENSION end = 0;  // row
+};
+
+/// Has libjpeg pass over what lies above and beside `region`. A block more is decoded on each side, as
+/// colours are interpolated between blocks.
+Band crop(jpeg_decompress_struct& info, const PixelRect& region) {
+  constexpr int kBlock = 16;
+  const int left = std::max(0, region.x - kBlock);
+  const int top = std::max(0, region.y - kBlock);
+  auto first = static_cast<JDIMENSION>(left);
+  JDIMENSION columns =
+      std::min(info.output_width, static_cast<JDIMENSION>(region.x + region.width + kBlock)) - first;
+  jpeg_crop_scanline(&info, &first, &columns);
+  if (top > 0) jpeg_skip_scanlines(&info, static_cast<JDIMENSION>(top));
+  return {first, static_cast<JDIMENSION>(region.y + region.height)};
+}
+
 /// Decodes row by row: `start(info)` looks at the header and may decline with false, which is returned then;
-/// `place(y)` says where row y goes, `done(y)` hears that it is there. libjpeg's errors jump out of here:
-/// what owns memory belongs to the caller.
+/// `place(y)` says where row y goes, `done(y)` hears that it is there. Of `only` (may be null) the rows, and
+/// of them at least its columns. libjpeg's errors jump out of here: what owns memory belongs to the caller.
 template <class Start, class Place, class Done>
-bool decode_rows(const std::filesystem::path& path, std::span<const std::byte> bytes, const Start& start,
-                 const Place& place, const Done& done) {
+bool decode_rows(const std::filesystem::path& path, std::span<const std::byte> bytes, const PixelRect* only,
+                 const Start& start, const Place& place, const Done& done) {
   ErrorManager errors{};
   Decoder decoder;
   jpeg_decompress_struct& info = decoder.info;
@@ -103,13 +123,14 @@ bool decode_rows(const std::filesystem::path& path, std::span<const std::byte> b
   jpeg_read_header(&info, TRUE);
   if (!start(info)) return false;
   jpeg_start_decompress(&info);
-  while (info.output_scanline < info.output_height) {
+  const Band band = only == nullptr ? Band{0, info.output_height} : crop(info, *only);
+  while (info.output_scanline < band.end) {
     const auto y = static_cast<int>(info.output_scanline);
-    JSAMPROW row = place(y);
+    JSAMPROW row = place(y) + band.first_column * static_cast<JDIMENSION>(info.output_components);
     jpeg_read_scanlines(&info, &row, 1);
     done(y);
   }
-  jpeg_finish_decompress(&info);
+  if (band.end == info.output_height) jpeg_finish_decompress(&info);
   return true;
 }
 
@@ -135,12 +156,12 @@ Image decode_jpeg(const std::filesystem::path& path, std::span<const std::byte> 
                    [&](JSAMPLE v) { return values[v]; });
   };
   decode_rows(
-      path, bytes, start, [&](int) { return row.data(); }, done);
+      path, bytes, nullptr, start, [&](int) { return row.data(); }, done);
   return image;
 }
 
-bool decode_plain_jpeg(const std::filesystem::path& path, std::span<const std::byte> bytes,
-                       Picture8& picture) {
+bool decode_plain_jpeg(const std::filesystem::path& path, std::span<const std::byte> bytes, Picture8& picture,
+                       const PixelRect* only) {
   if (bytes.size() < 2 || bytes[0] != std::byte{0xff} || bytes[1] != std::byte{0xd8}) return false;
   std::size_t stride = 0;
   const auto start = [&](jpeg_decompress_struct& info) {
@@ -155,7 +176,7 @@ bool decode_plain_jpeg(const std::filesystem::path& path, std::span<const std::b
     return true;
   };
   const auto place = [&](int y) { return picture.rgb.data() + static_cast<std::size_t>(y) * stride; };
-  return decode_rows(path, bytes, start, place, [](int) {});
+  return decode_rows(path, bytes, only, start, place, [](int) {});
 }
 
 }  // namespace sateen

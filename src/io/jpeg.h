@@ -19,8 +19,9 @@ Image decode_jpeg(const std::filesystem::path& path, std::span<const std::byte> 
 
 /// The grey or RGB JPEG file `bytes` as 8-bit RGB, in the memory `picture` has already where that is enough.
 /// False for what takes more than decoding: no JPEG at all, other colours (CMYK), an EXIF orientation. Throws
-/// as decode_jpeg does.
-bool decode_plain_jpeg(const std::filesystem::path& path, std::span<const std::byte> bytes,
-                       Picture8& picture);
+/// as decode_jpeg does. With `only` (not null, inside the picture) no more than that region is promised to be
+/// decoded, and nothing below it is checked.
+bool decode_plain_jpeg(const std::filesystem::path& path, std::span<const std::byte> bytes, Picture8& picture,
+                       const PixelRect* only = nullptr);
 
 }  // namespace sateen

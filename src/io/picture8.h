@@ -5,6 +5,8 @@
 #include <filesystem>
 #include <vector>
 
+#include "sateen/core/image.h"
+
 namespace sateen {
 
 /// A decoded 8-bit picture as its file or the camera encodes it (usually sRGB), for work that cannot wait for
@@ -22,5 +24,9 @@ Picture8 read_picture8(const std::filesystem::path& path);
 /// The same into memory that is there: reading pictures of one size into the same `picture` again and again
 /// saves the system fetching and clearing its pages each time.
 void read_picture8(const std::filesystem::path& path, Picture8& picture);
+
+/// The same where only `region` (inside the picture) will be looked at: what lies beside it may be anything,
+/// and damage below it may go unnoticed. Of a plain JPEG little else is decoded.
+void read_picture8(const std::filesystem::path& path, const PixelRect& region, Picture8& picture);
 
 }  // namespace sateen

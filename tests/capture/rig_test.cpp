@@ -61,6 +61,22 @@ TEST(CaptureRig, AnglesThatThePicturesContradictAreDoubted) {
   EXPECT_THAT(capture_of(s, options).warnings, Contains(HasSubstr("doubtful")));
 }
 
+TEST(CaptureRig, AnglesOfAnotherDirectionOrTurnAreTold) {
+  for (const double tilt : {0.0, 4.0}) {
+    Simulation s = small();
+    s.tilt = {tilt, 0};
+    CaptureOptions options = informed_options(s);
+    options.angle_source = AngleSource::equal;
+    const auto wrong = Contains(HasSubstr("the table is wrong"));
+    EXPECT_THAT(capture_of(s, options).warnings, Not(wrong));
+    options.clockwise = true;
+    EXPECT_THAT(capture_of(s, options).warnings, Contains(HasSubstr("turns the other way")));
+    options.angle_source = AngleSource::given;
+    for (int i = 0; i < s.frames; ++i) options.angles.push_back(2 * s.angle(i));
+    EXPECT_THAT(capture_of(s, options).warnings, Contains(HasSubstr("not those of the pictures")));
+  }
+}
+
 TEST(CaptureRig, HeavyNoiseIsAveragedOut) {
   Simulation s = small();
   s.noise = 5;

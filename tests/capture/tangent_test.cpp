@@ -16,6 +16,7 @@
 namespace sateen {
 namespace {
 
+using test::ProgramResult;
 using test::run_program;
 using test::Simulation;
 
@@ -36,13 +37,17 @@ void write_woven(const Simulation& s, const std::filesystem::path& folder, doubl
   }
 }
 
+ProgramResult build(const std::filesystem::path& photographs, const std::filesystem::path& report,
+                    const Simulation& s, const std::string& how) {
+  return run_program(fmt::format("capture build {} -o {} --report {} --size 128 --slices 8 --fov {:.4f} {}",
+                                 photographs.string(), (report / "cloth.ktx2").string(), report.string(),
+                                 degrees(2 * std::atan(s.width / 2.0 / s.focal)), how));
+}
+
 /// The tangent's direction in the first frame, degrees.
 double first_angle(const std::filesystem::path& photographs, const Simulation& s, const std::string& how) {
   const test::TemporaryFolder folder;
-  const auto result =
-      run_program(fmt::format("capture build {} -o {} --report {} --size 128 --slices 8 --fov {:.4f} {}",
-                              photographs.string(), (folder / "cloth.ktx2").string(), folder.path().string(),
-                              degrees(2 * std::atan(s.width / 2.0 / s.focal)), how));
+  const ProgramResult result = build(photographs, folder.path(), s, how);
   EXPECT_EQ(result.exit_code, 0) << result.output;
   const auto report = nlohmann::json::parse(read_text(folder / "report.json"));
   return report["frames"][0]["angle_degrees"].get<double>();
@@ -59,6 +64,24 @@ TEST(CaptureTangentCommand, TakesItFromTheWeaveOrAThread) {
   EXPECT_NEAR(std::remainder(across - s.first_angle - 90, 180), 0, 1);
   // Frame 6 has turned by a quarter.
   EXPECT_NEAR(first_angle(folder.path(), s, "--thread-direction 115 --thread-frame 6"), 25, 0.2);
+}
+
+TEST(CaptureTangentCommand, TellsAWeaveFromGrain) {
+  Simulation s;
+  s.frames = 24;
+  s.samples = 1;
+  // Uneven cloth, whose grain turns with the sphere, and sensor noise, which does not.
+  s.texture = 0.15;
+  s.noise = 8;
+  const test::TemporaryFolder grainy;
+  s.write(grainy.path());
+  const ProgramResult result = build(grainy.path(), grainy.path(), s, "--tangent-from-weave 0");
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_THAT(result.output, testing::HasSubstr("no weave is visible"));
+  const test::TemporaryFolder woven;
+  write_woven(s, woven.path(), 0.12);
+  const double found = first_angle(woven.path(), s, "--tangent-from-weave 0");
+  EXPECT_NEAR(std::remainder(found - s.first_angle, 180), 0, 2);
 }
 
 }  // namespace

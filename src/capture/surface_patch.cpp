@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: MIT
+#include "sateen/capture/surface_patch.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <opencv2/imgproc.hpp>
+
+#include "sateen/core/direction.h"
+
+namespace sateen {
+namespace {
+
+/// The light of every code.
+constexpr std::array<float, 256> kLight = [] {
+  std::array<float, 256> light{};
+  for (std::size_t code = 0; code < light.size(); ++code)
+    light[code] = static_cast<float>(code * code) / (255.0f * 255.0f);
+  return light;
+}();
+
+/// Bilinear light, clamped to the edge.
+float light_at(const GreyPicture& picture, const Vec2f& pixel) {
+  const float x = std::clamp(pixel.x() - 0.5f, 0.0f, static_cast<float>(picture.width) - 1.001f);
+  const float y = std::clamp(pixel.y() - 0.5f, 0.0f, static_cast<float>(picture.height) - 1.001f);
+  const int x0 = static_cast<int>(x);
+  const int y0 = static_cast<int>(y);
+  const float fx = x - static_cast<float>(x0);
+  const float fy = y - static_cast<float>(y0);
+  const std::uint8_t* p = &picture.codes[static_cast<std::size_t>(y0 * picture.width + x0)];
+  const std::uint8_t* q = p + picture.width;
+  const float top = kLight[p[0]] + fx * (kLight[p[1]] - kLight[p[0]]);
+  const float bottom = kLight[q[0]] + fx * (kLight[q[1]] - kLight[q[0]]);
+  return top + fy * (bottom - top);
+}
+
+}  // namespace
+
+PatchMap::PatchMap(const Camera& camera, const SphereView& mean, const Mat3& axes, int size)
+    : size_(size), centre_(mean.centre_pixel(camera)) {
+  const double radius = mean.radius_pixel(camera);
+  const Mat3 to_view = axes.transpose();
+  const SphereView right = sphere_at(camera, centre_ + Vec2(1, 0), radius);
+  const SphereView down = sphere_at(camera, centre_ + Vec2(0, 1), radius);
+  cv::Mat inside = cv::Mat::zeros(size, size, CV_32F);
+  for (int y = 0; y < size; ++y) {
+    for (int x = 0; x < size; ++x) {
+      const Vec2 disc = kPatchReach * disc_of_pixel(x, y, size);
+      if (disc.norm() > kPatchReach) continue;
+      const Vec3 normal = to_view * normal_on_disc(disc);
+      const Vec2 at = camera.project(mean.centre + normal);
+      const Vec2 along_x = camera.project(right.centre + normal) - at;
+      const Vec2 along_y = camera.project(down.centre + normal) - at;
+      places_.push_back({y * size + x, at.cast<float>(), along_x.cast<float>(), along_y.cast<float>()});
+      inside.at<float>(y, x) = 1;
+    }
+  }
+  share_ = around(inside);
+}
+
+cv::Mat PatchMap::around(const cv::Mat& light) const {
+  cv::Mat mean;
+  cv::GaussianBlur(light, mean, {}, size_ / 120.0);
+  return mean;
+}
+
+SurfacePatch PatchMap::patch(const GreyPicture& frame, const Vec2& centre) const {
+  const Vec2f shift = (centre - centre_).cast<float>();
+  cv::Mat light = cv::Mat::zeros(size_, size_, CV_32F);
+  auto* lights = light.ptr<float>(0);
+  for (const Place& place : places_)
+    lights[place.index] = light_at(frame, place.at + shift.x() * place.along_x + shift.y() * place.along_y);
+  const cv::Mat blurred = around(light);
+  const auto* means = blurred.ptr<float>(0);
+  const auto* shares = share_.ptr<float>(0);
+  SurfacePatch patch;
+  patch.size = size_;
+  patch.detail.assign(static_cast<std::size_t>(size_) * static_cast<std::size_t>(size_), 0);
+  double squares = 0;
+  for (const Place& place : places_) {
+    const float mean = means[place.index] / shares[place.index];
+    // In the dark the detail is noise: the floor keeps it small.
+    const float detail = std::clamp((lights[place.index] - mean) / (mean + 0.01f), -1.0f, 1.0f);
+    patch.detail[static_cast<std::size_t>(place.index)] =
+        static_cast<std::int8_t>(detail * 127 + (detail < 0 ? -0.5f : 0.5f));
+    squares += static_cast<double>(detail * detail);
+  }
+  patch.sharpness = std::sqrt(squares / std::max(1.0, static_cast<double>(places_.size())));
+  return patch;
+}
+
+}  // namespace sateen
