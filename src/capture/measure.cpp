@@ -95,7 +95,7 @@ FirstLook first_look(FrameSource& source, const Camera& camera, const Progress& 
   });
   std::erase_if(greys, [](const GreyPicture& grey) { return grey.codes.empty(); });
   leave_out_blank(greys);
-  look.scouting = find_sphere(greys);
+  look.scouting = find_sphere(greys, look.factor);
   if (camera.focal_source == kAssumedFocal) look.focal = find_focal(greys, look.scouting, look.camera);
   look.outline = fit_outlines(greys, look.scouting, look.camera);
   for (const Vec2& c : look.outline.centres)

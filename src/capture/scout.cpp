@@ -226,7 +226,7 @@ std::vector<Blob> active_blobs(const Scouting& s, int width, int height, double 
 }
 
 /// What phase correlation needs of a frame: half its size, the background's detail alone.
-cv::Mat background_detail(const GreyPicture& picture, const Circle& sphere) {
+cv::Mat background_detail(const GreyPicture& picture, const std::vector<Circle>& spheres) {
   cv::Mat full(picture.height, picture.width, CV_8U, const_cast<std::uint8_t*>(picture.codes.data()));
   cv::Mat image;
   cv::resize(full, image, {}, 0.5, 0.5, cv::INTER_AREA);
@@ -235,7 +235,7 @@ cv::Mat background_detail(const GreyPicture& picture, const Circle& sphere) {
   cv::blur(image, smooth, {31, 31});
   image -= smooth;
   // What turns must not vote: it is faded out softly, so that its edge does not vote for standing still.
-  if (sphere.radius > 0) {
+  for (const Circle& sphere : spheres) {
     for (int y = 0; y < image.rows; ++y) {
       for (int x = 0; x < image.cols; ++x) {
         const double r = (Vec2(2 * x + 1, 2 * y + 1) - sphere.centre).norm() / sphere.radius;
@@ -253,14 +253,15 @@ double background_motion(const cv::Mat& first, const cv::Mat& second) {
   return response > 0.05 ? 2 * std::hypot(shift.x, shift.y) : 0;
 }
 
-void check_camera(std::span<const GreyPicture> frames, const Circle& sphere, Scouting& s) {
+void check_camera(std::span<const GreyPicture> frames, int factor, const std::vector<Circle>& spheres,
+                  Scouting& s) {
   const std::size_t n = frames.size();
   constexpr std::size_t kCompared = 4;
   std::array<cv::Mat, kCompared + 1> details;
   const auto frame_of = [&](std::size_t i) { return i * (n - 1) / kCompared; };
   parallel_for(static_cast<int>(details.size()), [&](int i) {
     const auto at = static_cast<std::size_t>(i);
-    details[at] = background_detail(frames[frame_of(at)], sphere);
+    details[at] = background_detail(frames[frame_of(at)], spheres);
   });
   std::size_t last_still = 0;
   for (std::size_t i = 1; i <= kCompared; ++i) {
@@ -271,7 +272,7 @@ void check_camera(std::span<const GreyPicture> frames, const Circle& sphere, Sco
       throw Error(fmt::format(
           "the camera moved by about {:.1f} pixels between {:.0f} % and {:.0f} % of the sequence; fix camera "
           "and stand and shoot again",
-          moved * 1.0, 100.0 * static_cast<double>(last_still) / static_cast<double>(n - 1),
+          moved * factor, 100.0 * static_cast<double>(last_still) / static_cast<double>(n - 1),
           100.0 * static_cast<double>(f) / static_cast<double>(n - 1)));
     }
     last_still = f;
@@ -280,7 +281,7 @@ void check_camera(std::span<const GreyPicture> frames, const Circle& sphere, Sco
 
 }  // namespace
 
-Scouting find_sphere(std::span<const GreyPicture> frames) {
+Scouting find_sphere(std::span<const GreyPicture> frames, int factor) {
   Scouting s;
   measure_activity(frames, s);
   const int width = frames[0].width;
@@ -315,21 +316,27 @@ Scouting find_sphere(std::span<const GreyPicture> frames) {
     }
   }
   if (best.area <= 0) {
-    check_camera(frames, {}, s);
+    check_camera(frames, factor, {}, s);
     throw Error(
         "no sphere found: nothing round changes between the frames. The sphere has to turn while camera, "
         "lamps and "
         "background stand still, and fill at least a twentieth of the picture's height");
   }
-  check_camera(frames, best.circle, s);
+  std::vector<Circle> spheres{best.circle};
   for (const Blob& other : others) {
     const bool apart =
         (other.circle.centre - best.circle.centre).norm() > other.circle.radius + 0.8 * best.circle.radius;
     if (apart && other.circle.support > 0.5 && other.filled > 0.5 && other.area > 0.1 * best.area) {
-      throw Error(fmt::format(
-          "two turning spheres found, at ({:.0f}, {:.0f}) and ({:.0f}, {:.0f}); cover or crop one",
-          best.circle.centre.x(), best.circle.centre.y(), other.circle.centre.x(), other.circle.centre.y()));
+      spheres.push_back(other.circle);
     }
+  }
+  check_camera(frames, factor, spheres, s);
+  if (spheres.size() > 1) {
+    const Vec2 first = factor * spheres[0].centre;
+    const Vec2 second = factor * spheres[1].centre;
+    throw Error(
+        fmt::format("two turning spheres found, at ({:.0f}, {:.0f}) and ({:.0f}, {:.0f}); cover or crop one",
+                    first.x(), first.y(), second.x(), second.y()));
   }
   const Vec2& c = best.circle.centre;
   const double r = best.circle.radius;
@@ -338,7 +345,7 @@ Scouting find_sphere(std::span<const GreyPicture> frames) {
         fmt::format("the sphere (centre ({:.0f}, {:.0f}), radius {:.0f} of a picture of {} x {}) is cut by "
                     "the picture's edge; the "
                     "whole outline has to be visible",
-                    c.x(), c.y(), r, width, height));
+                    factor * c.x(), factor * c.y(), factor * r, factor * width, factor * height));
   }
   s.centre = c;
   s.radius = r;

@@ -54,7 +54,7 @@ struct Scouting {
 /// Finds the sphere: the background stands still, its surface turns. Robust against dark or plain parts of
 /// the sphere, small moving things beside it, exposure drift; to about a pixel (the outline fit refines it).
 /// Throws Error in plain words when nothing round turns, two things do, the sphere is cut by the picture's
-/// edge, or the camera moved.
-Scouting find_sphere(std::span<const GreyPicture> frames);
+/// edge, or the camera moved; `factor`: pixels of the photographs to one of `frames`, for what it says.
+Scouting find_sphere(std::span<const GreyPicture> frames, int factor);
 
 }  // namespace sateen
