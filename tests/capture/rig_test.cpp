@@ -62,19 +62,16 @@ TEST(CaptureRig, AnglesThatThePicturesContradictAreDoubted) {
 }
 
 TEST(CaptureRig, AnglesOfAnotherDirectionOrTurnAreTold) {
-  for (const double tilt : {0.0, 4.0}) {
-    Simulation s = small();
-    s.tilt = {tilt, 0};
-    CaptureOptions options = informed_options(s);
-    options.angle_source = AngleSource::equal;
-    const auto wrong = Contains(HasSubstr("the table is wrong"));
-    EXPECT_THAT(capture_of(s, options).warnings, Not(wrong));
-    options.clockwise = true;
-    EXPECT_THAT(capture_of(s, options).warnings, Contains(HasSubstr("turns the other way")));
-    options.angle_source = AngleSource::given;
-    for (int i = 0; i < s.frames; ++i) options.angles.push_back(2 * s.angle(i));
-    EXPECT_THAT(capture_of(s, options).warnings, Contains(HasSubstr("not those of the pictures")));
-  }
+  Simulation s = small();
+  s.tilt = {4, 0};
+  CaptureOptions options = informed_options(s);
+  options.angle_source = AngleSource::equal;
+  EXPECT_THAT(capture_of(s, options).warnings, Not(Contains(HasSubstr("the table is wrong"))));
+  options.clockwise = true;
+  EXPECT_THAT(capture_of(s, options).warnings, Contains(HasSubstr("turns the other way")));
+  options.angle_source = AngleSource::given;
+  for (int i = 0; i < s.frames; ++i) options.angles.push_back(2 * s.angle(i));
+  EXPECT_THAT(capture_of(s, options).warnings, Contains(HasSubstr("not those of the pictures")));
 }
 
 TEST(CaptureRig, HeavyNoiseIsAveragedOut) {
