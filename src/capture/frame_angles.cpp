@@ -109,6 +109,8 @@ FrameAngles find_frame_angles(std::vector<FrameNotes>& notes, const Mat3& axes, 
   if (known.empty()) {
     drop_unregistered(turning, indices, frames);
     found.equal_steps = recognise_equal_steps(frames);
+  } else {
+    found.equal_steps = options.angle_source == AngleSource::equal;
   }
   drop_duplicates(frames);
   // Angles count from the first frame that is used.

@@ -11,7 +11,7 @@ namespace sateen {
 /// How the sphere turned over all frames.
 struct FrameAngles {
   Vec3 axis{0, 0, 1};        ///< view space, unit, towards the camera
-  bool equal_steps = false;  ///< recognised, and then used exactly
+  bool equal_steps = false;  ///< given, or recognised and then used exactly
   double turned = 0;         ///< radians from the first to the last used frame
   double contradiction = 0;  ///< Turning::contradiction
   double known_off = 0;      ///< Turning::known_off

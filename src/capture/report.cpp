@@ -99,16 +99,16 @@ std::string symmetry_chart(const SymmetryReport& symmetry) {
     if (s.turns < 2) continue;
     bars += fmt::format(
         "<rect x='64' y='{0:.0f}' width='{1:.1f}' height='20' class='{2}'/><text x='58' y='{3:.0f}' "
-        "text-anchor='end'>R = {4}</text><text x='{5:.1f}' y='{3:.0f}'>{6:.1f}</text>",
+        "text-anchor='end'>R = {4}</text><text x='{5:.1f}' y='{3:.0f}' class='over'>{6:.1f}</text>",
         y, across(s.psnr) - 64, s.psnr >= symmetry.threshold ? "same" : "other", y + 15, s.turns,
         std::min(across(s.psnr) + 6, 400.0), s.psnr);
     y += 30;
   }
   const double limit = across(symmetry.threshold);
   return fmt::format(
-      "<figure><svg viewBox='0 0 450 120' role='img' aria-label='Symmetry'>{0}<line x1='{1:.1f}' "
+      "<figure class='half'><svg viewBox='0 0 450 120' role='img' aria-label='Symmetry'><line x1='{1:.1f}' "
       "x2='{1:.1f}' "
-      "y1='10' y2='106' class='limit'/></svg><figcaption>Alike after 1/R of a turn, dB; right of the line "
+      "y1='10' y2='106' class='limit'/>{0}</svg><figcaption>Alike after 1/R of a turn, dB; right of the line "
       "({2:.0f} dB) it counts as the same</figcaption></figure>",
       bars, limit, symmetry.threshold);
 }
@@ -175,6 +175,7 @@ constexpr const char* kStyle = R"(
 body{font:16px/1.45 system-ui,sans-serif;margin:0 auto;max-width:1000px;padding:1rem;color:#222;background:#fafafa}
 h1{font-size:1.4rem}h2{font-size:1.1rem;margin-top:2rem}
 .good,.look{padding:.7rem 1rem;border-radius:6px;font-weight:600}
+.over{paint-order:stroke;stroke:#fafafa;stroke-width:4px}.half{max-width:30rem}
 .good{background:#dcefdc}.look{background:#f7e3c0}
 ul{padding-left:1.2rem}li{margin:.3rem 0}
 svg,img{max-width:100%}.wide{width:100%;background:#000}
@@ -237,7 +238,7 @@ void write_report(const fs::path& folder, const CaptureResult& result) {
       result.warnings.empty()
           ? "<p class='good'>Nothing to complain about: this capture can be used.</p>"
           : fmt::format(
-                "<p class='look'>Usable, but look at {} before you put the sphere away:</p><ul>{}</ul>",
+                "<p class='look'>Look at {} before you put the sphere away:</p><ul>{}</ul>",
                 result.warnings.size() == 1 ? "one thing" : fmt::format("{} things", result.warnings.size()),
                 warnings);
   std::string dropped;
