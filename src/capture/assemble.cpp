@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
+#include <span>
 #include <utility>
 
 #include "sateen/capture/fill_unseen.h"
@@ -87,7 +89,7 @@ double spacing_of(const std::vector<Sample>& samples, double period) {
 /// How a texel's light at one angle is known.
 enum class Known { no, bridged, measured };
 
-/// The light at ascending angles from samples sorted by angle and repeated over three periods.
+/// The light at ascending angles from samples sorted by angle.
 class Fit {
  public:
   /// Inside a gap wider than the fit (a masked seam passing) the two shores are blended; beyond `widest`
@@ -128,7 +130,21 @@ class Fit {
 };
 
 /// Frames and slices lie far apart in memory: this many texels of a row are fetched and put there together.
-constexpr int kBlock = 16;
+constexpr int kBlock = 32;
+
+/// Sorts by angle. A turn ascends from wherever it starts: that needs no more than a rotation.
+void put_in_order(std::vector<Sample>& samples) {
+  std::ranges::rotate(samples, std::ranges::is_sorted_until(samples, {}, &Sample::angle));
+  if (!std::ranges::is_sorted(samples, {}, &Sample::angle)) std::ranges::sort(samples, {}, &Sample::angle);
+}
+
+/// Light, which is neither negative nor infinite: several at once.
+void to_floats(std::span<const Half> halves, float* floats) {
+  // A half's exponent and fraction in a float's place are short of the difference of the biases.
+  constexpr float kBias = std::bit_cast<float>((127U + 127 - 15) << 23);
+  for (std::size_t i = 0; i < halves.size(); ++i)
+    floats[i] = std::bit_cast<float>(std::uint32_t{std::bit_cast<std::uint16_t>(halves[i])} << 13) * kBias;
+}
 
 /// Each texel's samples, from all frames of a stack.
 class Samples {
@@ -148,23 +164,24 @@ class Samples {
       samples[u].clear();
       tangents.emplace_back(stack_.points[first + u], stack_.frame, axes_);
     }
+    std::array<float, 3 * kBlock> light;
     for (std::size_t f = 0; f < stack_.frames.size(); ++f) {
       const RectifiedFrame& frame = stack_.frames[f];
+      to_floats(std::span(frame.rgb).subspan(3 * first, 3 * count), light.data());
       for (std::size_t u = 0; u < count; ++u) {
         const std::size_t i = first + u;
         const SeenPoint& point = stack_.points[i];
         if (!point.visible || frame.weight[i] == 0) continue;
         if (mask_.size > 0 && mask_.excludes(body_point(axes_, point.normal, turned_[f]))) continue;
         Sample sample;
-        sample.angle = wrap(tangents[u].at(poles_[f]), period_);
-        const Half* rgb = &frame.rgb[i * 3];
-        sample.weighted << 1.0f, static_cast<float>(rgb[0]), static_cast<float>(rgb[1]),
-            static_cast<float>(rgb[2]);
-        sample.weighted *= static_cast<float>(frame.weight[i]) / 255.0f;
+        sample.angle = tangents[u].at(poles_[f]);
+        if (period_ < 1) sample.angle -= period_ * static_cast<int>(sample.angle / period_);
+        sample.weighted = static_cast<float>(frame.weight[i]) / 255.0f *
+                          Eigen::Array4f(1, light[3 * u], light[3 * u + 1], light[3 * u + 2]);
         samples[u].push_back(sample);
       }
     }
-    for (std::size_t u = 0; u < count; ++u) std::ranges::sort(samples[u], {}, &Sample::angle);
+    for (std::size_t u = 0; u < count; ++u) put_in_order(samples[u]);
   }
 
  private:
@@ -176,13 +193,13 @@ class Samples {
   std::vector<Vec2> turned_;  // per frame, as direction_of
 };
 
-/// One period more on either side.
-void repeat(const std::vector<Sample>& samples, double period, std::vector<Sample>& repeated) {
+/// With those of the periods before and after that lie within `reach` of this one.
+void repeat(const std::vector<Sample>& samples, double period, double reach, std::vector<Sample>& repeated) {
   repeated.clear();
   for (const double turn : {-period, 0.0, period}) {
-    for (Sample sample : samples) {
-      sample.angle += turn;
-      repeated.push_back(sample);
+    for (const Sample& sample : samples) {
+      const double angle = sample.angle + turn;
+      if (angle >= -reach && angle <= period + reach) repeated.push_back({angle, sample.weighted});
     }
   }
 }
@@ -214,8 +231,9 @@ AssembledSlices assemble(const RectifiedStack& stack, const SurfaceMask& mask, d
       for (std::size_t u = 0; u < width; ++u) {
         if (samples[u].size() < 3) continue;
         const double spacing = std::max(spacing_of(samples[u], period), period / count);
-        repeat(samples[u], period, repeated);
-        Fit fit(repeated, 2 * spacing, std::max(4 * spacing, kWidestBridge));
+        const double widest = std::max(4 * spacing, kWidestBridge);
+        repeat(samples[u], period, widest, repeated);
+        Fit fit(repeated, 2 * spacing, widest);
         for (std::size_t slice = 0; slice < static_cast<std::size_t>(count); ++slice) {
           std::array<float, 3> rgb{};
           const Known how = fit.at(period * static_cast<double>(slice) / count, rgb);
@@ -231,15 +249,16 @@ AssembledSlices assemble(const RectifiedStack& stack, const SurfaceMask& mask, d
     }
   });
   fill_unseen(result.slices, result.seen);
-  double inside = 0;
-  double seen = 0;
-  for (std::size_t i = 0; i < result.seen.size(); ++i) {
-    const auto texel = static_cast<int>(i % texels);
-    if (disc_of_pixel(texel % size, texel / size, size).norm() >= 1) continue;
-    ++inside;
-    seen += result.seen[i] == 1 ? 1 : 0;
+  std::vector<std::size_t> inside;
+  for (std::size_t i = 0; i < texels; ++i) {
+    const auto texel = static_cast<int>(i);
+    if (disc_of_pixel(texel % size, texel / size, size).norm() < 1) inside.push_back(i);
   }
-  result.seen_share = seen / inside;
+  std::size_t seen = 0;
+  for (std::size_t slice = 0; slice < result.seen.size(); slice += texels) {
+    for (const std::size_t i : inside) seen += result.seen[slice + i] == 1 ? 1 : 0;
+  }
+  result.seen_share = static_cast<double>(seen) / static_cast<double>(inside.size() * result.slices.size());
   return result;
 }
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "sateen/core/colour.h"
@@ -10,22 +11,31 @@
 namespace sateen {
 namespace {
 
-/// The pixel above and left of a point, and how far the point lies from it.
-struct Corner {
-  int x, y;
-  float fx, fy;
-  bool last_x, last_y;  // there is no pixel beyond it
+/// The pixels around points of a picture.
+struct Corners {
+  Corners(int width, int height)
+      : last_x(width - 1), last_y(height - 1), most(static_cast<float>(last_x), static_cast<float>(last_y)) {}
 
-  Corner(const Vec2f& p, int width, int height) {
-    const float cx = std::clamp(p.x() - 0.5f, 0.0f, static_cast<float>(width - 1));
-    const float cy = std::clamp(p.y() - 0.5f, 0.0f, static_cast<float>(height - 1));
-    x = static_cast<int>(cx);
-    y = static_cast<int>(cy);
-    fx = cx - static_cast<float>(x);
-    fy = cy - static_cast<float>(y);
-    last_x = x + 1 == width;
-    last_y = y + 1 == height;
+  /// Bilinear between pixel(x, y)'s.
+  template <class Pixel>
+  Vec4f between(const Vec2f& p, const Pixel& pixel) const {
+    const float cx = std::min(std::max(p.x() - 0.5f, 0.0f), most.x());
+    const float cy = std::min(std::max(p.y() - 0.5f, 0.0f), most.y());
+    const int x = static_cast<int>(cx);
+    const int y = static_cast<int>(cy);
+    const int right = std::min(x + 1, last_x);
+    const int below = std::min(y + 1, last_y);
+    const float fx = cx - static_cast<float>(x);
+    const float fy = cy - static_cast<float>(y);
+    const Vec4f a = pixel(x, y);
+    const Vec4f top = a + fx * (pixel(right, y) - a);
+    const Vec4f c = pixel(x, below);
+    const Vec4f bottom = c + fx * (pixel(right, below) - c);
+    return top + fy * (bottom - top);
   }
+
+  int last_x, last_y;
+  Vec2f most;
 };
 
 }  // namespace
@@ -58,6 +68,12 @@ float Response::operator()(float code) const {
 Frame::Frame(Picture8 picture, const Response& response)
     : width_(picture.width), height_(picture.height), codes_(std::move(picture.rgb)) {
   for (std::size_t i = 0; i < table_.size(); ++i) table_[i] = response(static_cast<float>(i) / 255.0f);
+  for (std::size_t c = 0; c < 3; ++c) {
+    for (std::size_t code = 0; code < table_.size(); ++code) {
+      channel_[c][code] = table_[code] * Vec4f::Unit(static_cast<Eigen::Index>(c));
+      channel_[c][code][3] = code >= kClipped ? 1 : 0;
+    }
+  }
   std::ranges::transform(table_, quarter_.begin(), [](float light) {
     return static_cast<std::uint16_t>(std::clamp(light, 0.0f, 1.0f) * (kWhite / 4) + 0.5f);
   });
@@ -86,25 +102,27 @@ void Frame::add_grey_row(int x, int y, int factor, std::span<int> sums) const {
   }
 }
 
-Vec3f Frame::rgb_at(const Vec2f& p) const {
-  const Corner at(p, width_, height_);
-  if (light_.empty()) {
-    const std::uint8_t* top = codes_.data() + offset(at.x, at.y);
-    const std::uint8_t* bottom = at.last_y ? top : top + offset(0, 1);
-    const std::ptrdiff_t right = at.last_x ? 0 : 3;
-    Vec3f result;
-    for (int i = 0; i < 3; ++i) {
-      const float a = table_[top[i]] + at.fx * (table_[top[i + right]] - table_[top[i]]);
-      const float b = table_[bottom[i]] + at.fx * (table_[bottom[i + right]] - table_[bottom[i]]);
-      result[i] = a + at.fy * (b - a);
+Vec4f Frame::sum_light(std::span<const Vec2f> points) const {
+  const Corners corners(width_, height_);
+  Vec4f sum = Vec4f::Zero();
+  if (!light_.empty()) {
+    for (const Vec2f& p : points) {
+      sum += corners.between(p, [&](int x, int y) -> Vec4f {
+        const Vec3f light = light_.rgb(x, y);
+        return {light[0], light[1], light[2], clipped(x, y) ? 1.0f : 0.0f};
+      });
     }
-    return result;
+    return sum;
   }
-  const int x1 = at.last_x ? at.x : at.x + 1;
-  const int y1 = at.last_y ? at.y : at.y + 1;
-  const Vec3f top = rgb(at.x, at.y) * (1 - at.fx) + rgb(x1, at.y) * at.fx;
-  const Vec3f bottom = rgb(at.x, y1) * (1 - at.fx) + rgb(x1, y1) * at.fx;
-  return top * (1 - at.fy) + bottom * at.fy;
+  constexpr float kUnbounded = std::numeric_limits<float>::max();
+  const Vec4f most(kUnbounded, kUnbounded, kUnbounded, 1);
+  for (const Vec2f& p : points) {
+    sum += corners.between(p, [&](int x, int y) -> Vec4f {
+      const std::uint8_t* code = codes_.data() + offset(x, y);
+      return (channel_[0][code[0]] + channel_[1][code[1]] + channel_[2][code[2]]).cwiseMin(most);
+    });
+  }
+  return sum;
 }
 
 Picture8 Frame::take_codes() {

@@ -49,12 +49,13 @@ class Frame {
   bool clipped(int x, int y) const {
     if (light_.empty()) {
       const std::uint8_t* p = codes_.data() + offset(x, y);
-      return p[0] >= 254 || p[1] >= 254 || p[2] >= 254;
+      return p[0] >= kClipped || p[1] >= kClipped || p[2] >= kClipped;
     }
     return light_.rgb(x, y).maxCoeff() >= clip_;
   }
-  /// Bilinear, clamped to the edge; pixel centres at +0.5.
-  Vec3f rgb_at(const Vec2f& p) const;
+  /// The sum over `points` of the light (R, G, B) there, bilinear, clamped to the edge, pixel centres at
+  /// +0.5; fourth, of how much of it is clipped, 0 to 1 each.
+  Vec4f sum_light(std::span<const Vec2f> points) const;
 
   /// Adds to each sum the grey() of `factor` pixels of row y, from pixel (x, y) on: sums[i] gets those of
   /// x + i * factor and the factor - 1 after it. kWhite is white.
@@ -68,6 +69,8 @@ class Frame {
   Picture8 take_codes();
 
  private:
+  static constexpr int kClipped = 254;  // code from which on a channel counts as clipped
+
   std::size_t offset(int x, int y) const {
     return (static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x)) * 3;
   }
@@ -76,6 +79,8 @@ class Frame {
   int height_ = 0;
   std::vector<std::uint8_t> codes_;
   std::array<float, 256> table_{};
+  std::array<std::array<Vec4f, 256>, 3>
+      channel_{};                             // table_ as one channel of light_at's, and whether it clips
   std::array<std::uint16_t, 256> quarter_{};  // table_ in quarters of kWhite
   Image light_;
   float clip_ = 1;

@@ -15,7 +15,7 @@
 namespace sateen {
 namespace {
 
-constexpr int kScouts = 32;
+constexpr int kScouts = 24;
 constexpr int kLargestPatch = 192;
 
 /// Standard deviation of every 7th pixel's code.
@@ -127,9 +127,7 @@ double code_gain(const FirstLook& look, const std::vector<Vec3f>& samples) {
     ratios.push_back(grey / look.still_grey[i]);
   }
   if (ratios.size() < 50) return 1;
-  const auto half = ratios.begin() + static_cast<std::ptrdiff_t>(ratios.size() / 2);
-  std::ranges::nth_element(ratios, half);
-  return std::sqrt(std::max(1e-3, *half));
+  return std::sqrt(std::max(1e-3, middle_of(ratios)));
 }
 
 }  // namespace

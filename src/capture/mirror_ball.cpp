@@ -2,6 +2,7 @@
 #include "sateen/capture/mirror_ball.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "sateen/core/parallel.h"
@@ -38,7 +39,8 @@ Image mirror_ball_environment(const Frame& frame, const Camera& camera, const Sp
       // At the very rim the picture mixes in what lies behind.
       if (normal.dot(to_eye) < 0.06) continue;
       const Vec2 p = camera.project(ball.centre + normal);
-      map.set_rgb(x, y, scale * frame.rgb_at(p.cast<float>()));
+      const std::array at{Vec2f(p.cast<float>())};
+      map.set_rgb(x, y, scale * frame.sum_light(at).head<3>());
       known[static_cast<std::size_t>(y * width + x)] = 1;
     }
   });

@@ -229,10 +229,13 @@ class Background {
     const Vec2 seen_middle = camera_.project(middle);
     const double farthest = 2 * radius + 24;  // the longest ellipse there may be
     parallel_for(plate_.height, [&](int y) {
+      const double beside = farthest * farthest - std::pow(y + 0.5 - seen_middle.y(), 2);
+      if (beside <= 0) return;
+      const int first = std::max(0, static_cast<int>(seen_middle.x() - std::sqrt(beside)));
+      const int end = std::min(plate_.width, static_cast<int>(seen_middle.x() + std::sqrt(beside)) + 1);
       std::vector<float> values;
-      for (int x = 0; x < plate_.width; ++x) {
+      for (int x = first; x < end; ++x) {
         const Vec2 p(x + 0.5, y + 0.5);
-        if ((p - seen_middle).squaredNorm() > farthest * farthest) continue;
         const Vec3 ray = camera_.ray(p);
         const double cosine = ray.dot(middle);
         if (cosine < ring) continue;
@@ -250,9 +253,7 @@ class Background {
           values.push_back(static_cast<float>(light_of(frames_[f].codes[i]) / (gain * gain)));
         }
         if (values.empty()) continue;
-        const auto half = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-        std::ranges::nth_element(values, half);
-        plate_.light[i] = *half;
+        plate_.light[i] = middle_of(values);
       }
     });
     return plate_;

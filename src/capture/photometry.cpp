@@ -58,37 +58,39 @@ Photometry solve_photometry(std::span<const std::vector<Vec3f>> samples, const S
   if (n < kFewest || frames == 0) return result;
 
   std::vector<Vec3> halves(frames, Vec3(0, 0, 0));  // green: upper, lower
-  std::vector<Vec3> reference(n, Vec3(0, 0, 0));
+  std::vector<Vec3f> reference(n, Vec3f(0, 0, 0));
   for (int round = 0; round < 3; ++round) {
     // The reference light of each point, gains removed; then each frame's gain against it.
+    std::vector<Vec3f> inverse(frames);
+    for (std::size_t f = 0; f < frames; ++f) inverse[f] = result.gain[f].cwiseInverse().cast<float>();
     parallel_for(static_cast<int>(n), [&](int point) {
       const auto p = static_cast<std::size_t>(point);
-      std::vector<double> values;
+      std::vector<float> values;
+      values.reserve(frames);
       for (int c = 0; c < 3; ++c) {
         values.clear();
         for (std::size_t f = 0; f < frames; ++f) {
-          if (samples[f][p][c] >= 0)
-            values.push_back(static_cast<double>(samples[f][p][c]) / result.gain[f][c]);
+          if (samples[f][p][c] >= 0) values.push_back(samples[f][p][c] * inverse[f][c]);
         }
-        reference[p][c] = values.size() * 2 > frames ? median(values) : -1;
+        reference[p][c] = values.size() * 2 > frames ? middle_of(values) : -1;
       }
     });
     parallel_for(static_cast<int>(frames), [&](int frame) {
       const auto f = static_cast<std::size_t>(frame);
-      std::vector<double> values;
-      std::vector<double> half[2];
+      std::vector<float> values;
+      std::vector<float> half[2];
       for (int c = 0; c < 3; ++c) {
         values.clear();
         for (std::size_t p = 0; p < n; ++p) {
-          if (samples[f][p][c] < 0 || reference[p][c] < 0.004) continue;
-          const double ratio = static_cast<double>(samples[f][p][c]) / reference[p][c];
+          if (samples[f][p][c] < 0 || reference[p][c] < 0.004f) continue;
+          const float ratio = samples[f][p][c] / reference[p][c];
           values.push_back(ratio);
           if (c == 1) half[points.pixels[p].y() * 2 < height ? 0 : 1].push_back(ratio);
         }
-        result.gain[f][c] = values.size() >= kFewest ? median(values) : 1;
+        result.gain[f][c] = values.size() >= kFewest ? static_cast<double>(middle_of(values)) : 1;
       }
       if (half[0].size() >= kFewest && half[1].size() >= kFewest) {
-        halves[f] = {median(half[0]), median(half[1]), 0};
+        halves[f] = {static_cast<double>(middle_of(half[0])), static_cast<double>(middle_of(half[1])), 0};
       }
     });
     Vec3 mean(0, 0, 0);

@@ -18,7 +18,7 @@ struct StillPoints {
 /// Up to `count` points clear of the sphere (centre and radius in grey pixels, `clearance` more) whose grey
 /// pixel neither changes nor is nearly black or clipped. `factor` is grey_factor.
 StillPoints still_points(const Scouting& scouting, int grey_width, int grey_height, int factor,
-                         double clearance, std::size_t count = 1500);
+                         double clearance, std::size_t count = 1000);
 
 /// The light at each still point of a frame, mean over 3 x 3 pixels; negative where clipped.
 std::vector<Vec3f> sample_still_points(const StillPoints& points, const Frame& frame);

@@ -2,12 +2,18 @@
 #include "sateen/capture/rectify.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "sateen/core/direction.h"
 #include "sateen/core/parallel.h"
 
 namespace sateen {
+namespace {
+
+constexpr int kMostSamples = 8;  // across a texel
+
+}  // namespace
 
 RectifyMap::RectifyMap(const Camera& camera, const SphereView& mean, int size, TableFrame frame,
                        double rim_pixels)
@@ -15,7 +21,7 @@ RectifyMap::RectifyMap(const Camera& camera, const SphereView& mean, int size, T
   const double radius = mean.radius_pixel(camera);
   const double footprint = 2 * radius / size;
   // Bilinear samples reach a pixel: one for each pixel and a half of the footprint leaves no gaps.
-  samples_ = std::clamp(static_cast<int>(std::ceil(footprint / 1.2)), 2, 8);
+  samples_ = std::clamp(static_cast<int>(std::ceil(footprint / 1.2)), 2, kMostSamples);
   const int fine = size * samples_;
   const double visible_reach = 1 - rim_pixels / radius;
   const SphereView right = sphere_at(camera, centre_ + Vec2(1, 0), radius);
@@ -79,6 +85,7 @@ RectifiedFrame rectify(const RectifyMap& map, const Frame& frame, const Vec2& ce
   const auto texels = static_cast<std::size_t>(size) * static_cast<std::size_t>(size);
   const Vec2f shift = (centre - map.centre_).cast<float>();
   const Vec3f scale = gain.cwiseInverse().cast<float>();
+  std::array<Vec2f, kMostSamples * kMostSamples> points;
   const bool masked = map.mask_.width > 0;
   RectifiedFrame result;
   result.size = size;
@@ -87,9 +94,7 @@ RectifiedFrame rectify(const RectifyMap& map, const Frame& frame, const Vec2& ce
   result.clipped.assign(texels, 0);
   for (int y = 0; y < size; ++y) {
     for (int x = 0; x < size; ++x) {
-      Vec3f sum(0, 0, 0);
-      int seen = 0;
-      int clipped = 0;
+      std::size_t seen = 0;
       for (int v = 0; v < n; ++v) {
         const RectifyMap::Sample* row =
             map.grid_.data() + static_cast<std::size_t>(y * n + v) * static_cast<std::size_t>(fine) + x * n;
@@ -98,20 +103,16 @@ RectifiedFrame rectify(const RectifyMap& map, const Frame& frame, const Vec2& ce
           if (!s.seen) continue;
           const Vec2f p = s.moved(shift);
           if (masked && map.mask_.hides(p.x(), p.y())) continue;
-          sum += frame.rgb_at(p);
-          const int ix = std::clamp(static_cast<int>(p.x()), 0, frame.width() - 1);
-          const int iy = std::clamp(static_cast<int>(p.y()), 0, frame.height() - 1);
-          clipped += frame.clipped(ix, iy) ? 1 : 0;
-          ++seen;
+          points[seen++] = p;
         }
       }
       if (seen == 0) continue;
       const auto i = static_cast<std::size_t>(y * size + x);
-      const Vec3f mean = (sum / static_cast<float>(seen)).cwiseProduct(scale);
+      const Vec4f mean = frame.sum_light(std::span(points).first(seen)) / static_cast<float>(seen);
       for (int c = 0; c < 3; ++c)
-        result.rgb[i * 3 + static_cast<std::size_t>(c)] = static_cast<Half>(mean[c]);
-      result.weight[i] = static_cast<std::uint8_t>(255 * seen / (n * n));
-      result.clipped[i] = static_cast<std::uint8_t>(255 * clipped / seen);
+        result.rgb[i * 3 + static_cast<std::size_t>(c)] = static_cast<Half>(mean[c] * scale[c]);
+      result.weight[i] = static_cast<std::uint8_t>(255 * static_cast<int>(seen) / (n * n));
+      result.clipped[i] = static_cast<std::uint8_t>(255 * mean[3]);
     }
   }
   return result;

@@ -78,7 +78,7 @@ struct RectifiedFrame {
   int size = 0;
   std::vector<Half> rgb;              ///< light with the gain removed, 3 a texel, row 0 on top
   std::vector<std::uint8_t> weight;   ///< 255: the whole texel was seen; 0: nothing of it
-  std::vector<std::uint8_t> clipped;  ///< 255: every sample was clipped
+  std::vector<std::uint8_t> clipped;  ///< 255: all of it was clipped
 };
 
 /// `centre` is where this frame's sphere centre is seen, pixels; the light is divided by `gain`.

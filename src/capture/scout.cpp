@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <opencv2/imgproc.hpp>
 
+#include "sateen/capture/median.h"
 #include "sateen/core/error.h"
 #include "sateen/core/parallel.h"
 
@@ -37,6 +38,23 @@ GreyPicture grey_picture(const Frame& frame, int factor) {
   return picture;
 }
 
+namespace {
+
+/// The code of all light from 0 to Frame::kWhite.
+const std::vector<std::uint8_t>& codes_of_light() {
+  static const std::vector<std::uint8_t> codes = [] {
+    std::vector<std::uint8_t> table(Frame::kWhite + 1);
+    for (std::size_t light = 0; light < table.size(); ++light) {
+      const double share = static_cast<double>(light) / Frame::kWhite;
+      table[light] = static_cast<std::uint8_t>(std::lround(255 * std::sqrt(share)));
+    }
+    return table;
+  }();
+  return codes;
+}
+
+}  // namespace
+
 void grey_picture(const Frame& frame, int factor, const GreyRegion& region, GreyPicture& picture) {
   picture.width = frame.width() / factor;
   picture.height = frame.height() / factor;
@@ -44,17 +62,17 @@ void grey_picture(const Frame& frame, int factor, const GreyRegion& region, Grey
   const int first = std::max(0, region.left);
   const int end = std::min(picture.width, region.right);
   if (first >= end) return;
-  const auto scale =
-      static_cast<float>(255.0 * 255.0 / (static_cast<double>(Frame::kWhite) * factor * factor));
-  Eigen::ArrayXi sums(end - first);
+  const std::vector<std::uint8_t>& code_of = codes_of_light();
+  const int pixels = factor * factor;
+  std::vector<int> sums(static_cast<std::size_t>(end - first));
   for (int y = std::max(0, region.top); y < std::min(picture.height, region.bottom); ++y) {
-    sums.setZero();
-    for (int v = 0; v < factor; ++v)
-      frame.add_grey_row(first * factor, y * factor + v, factor,
-                         {sums.data(), static_cast<std::size_t>(sums.size())});
+    std::ranges::fill(sums, 0);
+    for (int v = 0; v < factor; ++v) frame.add_grey_row(first * factor, y * factor + v, factor, sums);
     std::uint8_t* codes = &picture.codes[static_cast<std::size_t>(y * picture.width + first)];
-    Eigen::Map<Eigen::Array<std::uint8_t, Eigen::Dynamic, 1>>(codes, sums.size()) =
-        ((sums.cast<float>() * scale).sqrt() + 0.5f).cast<int>().cast<std::uint8_t>();
+    if (pixels > 1) {
+      for (int& sum : sums) sum /= pixels;
+    }
+    for (std::size_t i = 0; i < sums.size(); ++i) codes[i] = code_of[static_cast<std::size_t>(sums[i])];
   }
 }
 
@@ -65,22 +83,27 @@ constexpr int kGrid = 7;
 
 /// Gain of each frame's codes against the mean, as the median ratio over a grid, which the background
 /// carries.
-std::vector<float> gains(std::span<const GreyPicture> frames, const std::vector<float>& mean) {
+std::vector<float> gains(std::span<const GreyPicture> frames) {
+  std::vector<std::size_t> grid;
+  for (int y = 0; y < frames[0].height; y += kGrid) {
+    for (int x = 0; x < frames[0].width; x += kGrid)
+      grid.push_back(static_cast<std::size_t>(y * frames[0].width + x));
+  }
+  std::vector<float> mean(grid.size(), 0);
+  for (const GreyPicture& frame : frames) {
+    for (std::size_t i = 0; i < grid.size(); ++i)
+      mean[i] += static_cast<float>(frame.codes[grid[i]]) / static_cast<float>(frames.size());
+  }
   std::vector<float> result(frames.size(), 1);
   parallel_for(static_cast<int>(frames.size()), [&](int f) {
     const GreyPicture& frame = frames[static_cast<std::size_t>(f)];
     std::vector<float> ratios;
-    for (int y = 0; y < frame.height; y += kGrid) {
-      for (int x = 0; x < frame.width; x += kGrid) {
-        const float m = mean[static_cast<std::size_t>(y * frame.width + x)];
-        const int code = frame.at(x, y);
-        if (m > 20 && m < 245 && code < 250) ratios.push_back(static_cast<float>(code) / m);
-      }
+    for (std::size_t i = 0; i < grid.size(); ++i) {
+      const int code = frame.codes[grid[i]];
+      if (mean[i] > 20 && mean[i] < 245 && code < 250) ratios.push_back(static_cast<float>(code) / mean[i]);
     }
     if (ratios.size() < 50) return;
-    const auto middle = ratios.begin() + static_cast<std::ptrdiff_t>(ratios.size() / 2);
-    std::ranges::nth_element(ratios, middle);
-    result[static_cast<std::size_t>(f)] = *middle;
+    result[static_cast<std::size_t>(f)] = middle_of(ratios);
   });
   return result;
 }
@@ -91,30 +114,27 @@ void measure_activity(std::span<const GreyPicture> frames, Scouting& scouting) {
   const std::size_t pixels = frames[0].codes.size();
   scouting.mean.assign(pixels, 0);
   scouting.activity.assign(pixels, 0);
-  scouting.gain.assign(frames.size(), 1);
-  for (int round = 0; round < 2; ++round) {
-    if (round > 0) scouting.gain = gains(frames, scouting.mean);
-    parallel_for(height, [&](int y) {
-      const auto row = static_cast<std::size_t>(y) * static_cast<std::size_t>(width);
-      std::vector<float> sums(static_cast<std::size_t>(width), 0);
-      std::vector<float> squares(sums.size(), 0);
-      for (std::size_t f = 0; f < frames.size(); ++f) {
-        const std::uint8_t* codes = frames[f].codes.data() + row;
-        const float scale = 1 / scouting.gain[f];
-        for (std::size_t x = 0; x < sums.size(); ++x) {
-          const float v = static_cast<float>(codes[x]) * scale;
-          sums[x] += v;
-          squares[x] += v * v;
-        }
-      }
-      const auto n = static_cast<float>(frames.size());
+  scouting.gain = gains(frames);
+  parallel_for(height, [&](int y) {
+    const auto row = static_cast<std::size_t>(y) * static_cast<std::size_t>(width);
+    std::vector<float> sums(static_cast<std::size_t>(width), 0);
+    std::vector<float> squares(sums.size(), 0);
+    for (std::size_t f = 0; f < frames.size(); ++f) {
+      const std::uint8_t* codes = frames[f].codes.data() + row;
+      const float scale = 1 / scouting.gain[f];
       for (std::size_t x = 0; x < sums.size(); ++x) {
-        const float mean = sums[x] / n;
-        scouting.mean[row + x] = mean;
-        scouting.activity[row + x] = std::sqrt(std::max(0.0f, squares[x] / n - mean * mean));
+        const float v = static_cast<float>(codes[x]) * scale;
+        sums[x] += v;
+        squares[x] += v * v;
       }
-    });
-  }
+    }
+    const auto n = static_cast<float>(frames.size());
+    for (std::size_t x = 0; x < sums.size(); ++x) {
+      const float mean = sums[x] / n;
+      scouting.mean[row + x] = mean;
+      scouting.activity[row + x] = std::sqrt(std::max(0.0f, squares[x] / n - mean * mean));
+    }
+  });
 }
 
 struct Circle {

@@ -1,9 +1,17 @@
 // SPDX-License-Identifier: MIT
 #include "sateen/capture/stack.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "sateen/core/direction.h"
 
 namespace sateen {
+namespace {
+
+const double kBelowOne = std::nextafter(1.0, 0.0);
+
+}  // namespace
 
 AxisFrame::AxisFrame(const Vec3& axis) {
   x = (Vec3::UnitX() - axis * axis.x()).normalized();
@@ -24,7 +32,8 @@ TangentAngle::TangentAngle(const SeenPoint& point, TableFrame frame, const AxisF
 
 double TangentAngle::at(const Vec2& pole) const {
   const Vec2 tangent = pole.x() * cosine_ + pole.y() * sine_;
-  return wrap(std::atan2(tangent.y(), tangent.x()) / (2 * kPi));
+  const double turns = std::atan2(tangent.y(), tangent.x()) / (2 * kPi);
+  return turns < 0 ? std::min(turns + 1, kBelowOne) : turns;
 }
 
 }  // namespace sateen

@@ -56,17 +56,34 @@ std::size_t usable_in(std::span<const BlockLight* const> rows, std::size_t colum
   return count;
 }
 
-/// The middle values (the upper of two) of the usable ones in each column of `channel`: a selection network,
-/// so that several medians share each instruction. `rows`: 1 to kMostNeighbours.
+/// Exchanges where the first is above the second.
+void in_order(Columns& a, Columns& b) {
+  const Columns smaller = a.min(b);
+  b = a.max(b);
+  a = smaller;
+}
+
+/// Batcher's odd-even merge sort of eight.
+void sort_eight(Columns* v) {
+  constexpr std::array kFirst{0, 2, 4, 6, 0, 1, 4, 5, 1, 5, 0, 1, 2, 3, 2, 3, 1, 3, 5};
+  constexpr std::array kSecond{1, 3, 5, 7, 2, 3, 6, 7, 2, 6, 4, 5, 6, 7, 4, 5, 2, 4, 6};
+#pragma GCC unroll 19
+  for (std::size_t i = 0; i < kFirst.size(); ++i) in_order(v[kFirst[i]], v[kSecond[i]]);
+}
+
+/// The middle values (the upper of two) of the usable ones in each column of `channel`, by a network, so that
+/// several medians share each instruction. `rows`: at most kMostNeighbours.
 Columns middle_of_columns(std::span<const BlockLight* const> rows, std::size_t channel) {
+  static_assert(kMostNeighbours == 16);
   const std::size_t n = rows.size();
   std::array<Columns, kMostNeighbours> v;
   for (std::size_t i = 0; i < n; ++i) v[i] = rows[i]->light[channel];
+  // The missing ones go below and above, so that the middle of all stays the middle of the others.
+  constexpr float kInfinity = std::numeric_limits<float>::infinity();
+  for (std::size_t i = n; i < v.size(); ++i) v[i] = Columns::Constant(i % 2 == 0 ? kInfinity : -kInfinity);
   if (!std::ranges::all_of(rows, &BlockLight::whole)) {
-    // The missing ones go below and above, so that the middle of all stays the middle of the others.
-    constexpr float kInfinity = std::numeric_limits<float>::infinity();
     for (std::size_t column = 0; column < kBlock; ++column) {
-      std::size_t below = n / 2 - usable_in(rows, column) / 2;
+      std::size_t below = kMostNeighbours / 2 - usable_in(rows, column) / 2 - (kMostNeighbours - n + 1) / 2;
       for (std::size_t i = 0; i < n; ++i) {
         if (rows[i]->usable[column] == 1) continue;
         v[i][static_cast<Eigen::Index>(column)] = below > 0 ? -kInfinity : kInfinity;
@@ -74,14 +91,12 @@ Columns middle_of_columns(std::span<const BlockLight* const> rows, std::size_t c
       }
     }
   }
-  for (std::size_t lowest = 0; lowest <= n / 2; ++lowest) {
-    for (std::size_t i = n - 1; i > lowest; --i) {
-      const Columns smaller = v[i].min(v[i - 1]);
-      v[i] = v[i].max(v[i - 1]);
-      v[i - 1] = smaller;
-    }
-  }
-  return v[n / 2];
+  sort_eight(v.data());
+  sort_eight(v.data() + 8);
+  // Of two ascending halves the larger of each pair, first with last, are the upper half of all.
+  Columns middle = v[0].max(v[15]);
+  for (std::size_t i = 1; i < 8; ++i) middle = middle.min(v[i].max(v[15 - i]));
+  return middle;
 }
 
 /// Some forty frames agree as well as all of them.

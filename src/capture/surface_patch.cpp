@@ -43,7 +43,7 @@ PatchMap::PatchMap(const Camera& camera, const SphereView& mean, const Mat3& axe
   const Mat3 to_view = axes.transpose();
   const SphereView right = sphere_at(camera, centre_ + Vec2(1, 0), radius);
   const SphereView down = sphere_at(camera, centre_ + Vec2(0, 1), radius);
-  cv::Mat inside = cv::Mat::zeros(size, size, CV_32F);
+  inside_ = cv::Mat::zeros(size, size, CV_32F);
   for (int y = 0; y < size; ++y) {
     for (int x = 0; x < size; ++x) {
       const Vec2 disc = kPatchReach * disc_of_pixel(x, y, size);
@@ -53,10 +53,10 @@ PatchMap::PatchMap(const Camera& camera, const SphereView& mean, const Mat3& axe
       const Vec2 along_x = camera.project(right.centre + normal) - at;
       const Vec2 along_y = camera.project(down.centre + normal) - at;
       places_.push_back({y * size + x, at.cast<float>(), along_x.cast<float>(), along_y.cast<float>()});
-      inside.at<float>(y, x) = 1;
+      inside_.at<float>(y, x) = 1;
     }
   }
-  share_ = around(inside);
+  share_ = around(inside_);
 }
 
 cv::Mat PatchMap::around(const cv::Mat& light) const {
@@ -72,21 +72,21 @@ SurfacePatch PatchMap::patch(const GreyPicture& frame, const Vec2& centre) const
   for (const Place& place : places_)
     lights[place.index] = light_at(frame, place.at + shift.x() * place.along_x + shift.y() * place.along_y);
   const cv::Mat blurred = around(light);
-  const auto* means = blurred.ptr<float>(0);
-  const auto* shares = share_.ptr<float>(0);
+  const auto pixels = static_cast<Eigen::Index>(size_) * size_;
+  const auto row_of = [&](const cv::Mat& picture) {
+    return Eigen::Map<const Eigen::ArrayXf>(picture.ptr<float>(0), pixels);
+  };
+  // In the dark the detail is noise: the floor keeps it small. Outside of the disc there is no light.
+  const Eigen::ArrayXf mean = row_of(blurred) / row_of(share_).max(1e-6f);
+  const Eigen::ArrayXf detail =
+      row_of(inside_) * ((row_of(light) - mean) / (mean + 0.01f)).max(-1.0f).min(1.0f);
   SurfacePatch patch;
   patch.size = size_;
-  patch.detail.assign(static_cast<std::size_t>(size_) * static_cast<std::size_t>(size_), 0);
-  double squares = 0;
-  for (const Place& place : places_) {
-    const float mean = means[place.index] / shares[place.index];
-    // In the dark the detail is noise: the floor keeps it small.
-    const float detail = std::clamp((lights[place.index] - mean) / (mean + 0.01f), -1.0f, 1.0f);
-    patch.detail[static_cast<std::size_t>(place.index)] =
-        static_cast<std::int8_t>(detail * 127 + (detail < 0 ? -0.5f : 0.5f));
-    squares += static_cast<double>(detail * detail);
-  }
-  patch.sharpness = std::sqrt(squares / std::max(1.0, static_cast<double>(places_.size())));
+  patch.detail.resize(static_cast<std::size_t>(pixels));
+  Eigen::Map<Eigen::Array<std::int8_t, Eigen::Dynamic, 1>>(patch.detail.data(), pixels) =
+      ((detail * 127 + 127.5f).cast<int>() - 127).cast<std::int8_t>();
+  patch.sharpness = std::sqrt(static_cast<double>(detail.square().sum()) /
+                              std::max(1.0, static_cast<double>(places_.size())));
   return patch;
 }
 

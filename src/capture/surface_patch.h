@@ -45,7 +45,8 @@ class PatchMap {
   int size_ = 0;
   Vec2 centre_{0, 0};
   std::vector<Place> places_;
-  cv::Mat share_;  // of each pixel's neighbourhood that lies on the disc
+  cv::Mat inside_;  // 1: the pixel lies on the disc
+  cv::Mat share_;   // of each pixel's neighbourhood that lies on the disc
 };
 
 }  // namespace sateen

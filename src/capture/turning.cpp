@@ -18,7 +18,7 @@ namespace sateen {
 namespace {
 
 constexpr double kPairTurn = radians(12);  // apart enough to show the axis, near enough to look alike
-constexpr int kPairs = 48;
+constexpr int kPairs = 32;
 constexpr double kFollowed = 2;  // correlation, in those that chance reaches, that can be trusted
 constexpr double kNoisy = 4;     // correlation, in those that chance reaches, below which smoothing pays
 constexpr std::array kRounds{true, true, false};  // of refinement: the quick ones first
@@ -113,7 +113,7 @@ Turning turning_about(const std::vector<cv::Mat>& images, const PolarTurning& st
 
 /// PolarPictures::contradiction, which as a median needs no more than some of the frames.
 double contradiction_of(const std::vector<cv::Mat>& images, const Turning& turning) {
-  constexpr std::size_t kEnough = 64;
+  constexpr std::size_t kEnough = 32;
   const std::size_t step = std::max<std::size_t>(1, images.size() / kEnough);
   std::vector<cv::Mat> some;
   std::vector<double> angles;

@@ -66,16 +66,6 @@ Image::Image(int width_, int height_, int channels_, float value)
                static_cast<std::size_t>(channels_),
            value) {}
 
-Vec3f Image::rgb(int x, int y) const {
-  const float* p = data.data() + index(x, y);
-  return channels >= 3 ? Vec3f(p[0], p[1], p[2]) : Vec3f(p[0], p[0], p[0]);
-}
-
-void Image::set_rgb(int x, int y, const Vec3f& value) {
-  float* p = data.data() + index(x, y);
-  for (int c = 0; c < std::min(channels, 3); ++c) p[c] = value[c];
-}
-
 bool fits(const PixelRect& region, int width, int height) {
   return region.x >= 0 && region.y >= 0 && region.width > 0 && region.height > 0 &&
          region.width <= width - region.x && region.height <= height - region.y;

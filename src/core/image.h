@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <span>
 #include <vector>
@@ -38,8 +39,14 @@ struct Image {
   }
 
   /// The first three channels of a pixel; a grey picture repeats its only channel.
-  Vec3f rgb(int x, int y) const;
-  void set_rgb(int x, int y, const Vec3f& value);
+  Vec3f rgb(int x, int y) const {
+    const float* p = data.data() + index(x, y);
+    return channels >= 3 ? Vec3f(p[0], p[1], p[2]) : Vec3f(p[0], p[0], p[0]);
+  }
+  void set_rgb(int x, int y, const Vec3f& value) {
+    float* p = data.data() + index(x, y);
+    for (int c = 0; c < std::min(channels, 3); ++c) p[c] = value[c];
+  }
 };
 
 /// A rectangle of pixels, from the top left corner of a picture.
