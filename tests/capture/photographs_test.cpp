@@ -2,9 +2,12 @@
 // What photographs bring along: exposure times, damaged notes.
 #include <algorithm>
 #include <cmath>
+#include <regex>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
 
 #include "capture/altered_frames.h"
 #include "capture/judge.h"
@@ -12,6 +15,7 @@
 #include "capture/simulator.h"
 #include "sateen/capture/capture.h"
 #include "sateen/core/direction.h"
+#include "sateen/core/error.h"
 #include "sateen/io/file.h"
 #include "sateen/io/image.h"
 #include "support/files.h"
@@ -96,6 +100,63 @@ TEST(CapturePhotographs, UnreadableExifIsAsGoodAsNone) {
   EXPECT_EQ(result.frames.size(), 36);
   EXPECT_EQ(result.camera.focal_source, "assumed");
   EXPECT_THAT(result.warnings, testing::Contains(testing::HasSubstr("the lens is unknown")));
+}
+
+/// What is said of the simulation's pictures enlarged so that every pixel becomes kLarge x kLarge: in these
+/// the sphere is looked for at half the size.
+constexpr int kLarge = 4;
+std::string complaint_of_enlarged(const Simulation& s) {
+  const TemporaryFolder folder;
+  for (int i = 0; i < s.frames; ++i) {
+    Picture8 picture = s.render(i);
+    const cv::Mat pixels(picture.height, picture.width, CV_8UC3, picture.rgb.data());
+    cv::Mat large;
+    cv::resize(pixels, large, {}, kLarge, kLarge, cv::INTER_NEAREST);
+    cv::imwrite(folder / fmt::format("shot_{:03}.jpg", i), large);
+  }
+  try {
+    build_capture({folder.path()}, test::small_options(s));
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+/// The numbers in a text, in order.
+std::vector<double> numbers_in(const std::string& text) {
+  const std::regex number(R"(\d+(\.\d+)?)");
+  std::vector<double> numbers;
+  for (std::sregex_iterator i(text.begin(), text.end(), number); i != std::sregex_iterator(); ++i)
+    numbers.push_back(std::stod(i->str()));
+  return numbers;
+}
+
+TEST(CapturePhotographs, PlacesAreToldInTheirOwnPixels) {
+  Simulation s = test::small_simulation(14);
+  s.centre = {350, 112};
+  const std::vector<double> cut = numbers_in(complaint_of_enlarged(s));
+  ASSERT_GE(cut.size(), 5);
+  EXPECT_NEAR(cut[0], kLarge * s.centre.x(), kLarge * 4);
+  EXPECT_NEAR(cut[1], kLarge * s.centre.y(), kLarge * 4);
+  EXPECT_NEAR(cut[2], kLarge * s.radius, kLarge * 4);
+  EXPECT_EQ(cut[3], kLarge * s.width);
+  EXPECT_EQ(cut[4], kLarge * s.height);
+
+  s.centre = {275, 112};
+  s.second_sphere = true;
+  const std::string spheres = complaint_of_enlarged(s);
+  EXPECT_THAT(spheres, testing::HasSubstr("two turning spheres"));
+  const std::vector<double> two = numbers_in(spheres);
+  ASSERT_GE(two.size(), 4);
+  const auto nearer = std::min(std::hypot(two[0] - kLarge * s.centre.x(), two[1] - kLarge * s.centre.y()),
+                               std::hypot(two[2] - kLarge * s.centre.x(), two[3] - kLarge * s.centre.y()));
+  EXPECT_LT(nearer, kLarge * 4);
+
+  s = test::small_simulation(14);
+  s.camera_move = {6, 3};
+  const std::vector<double> moved = numbers_in(complaint_of_enlarged(s));
+  ASSERT_GE(moved.size(), 1);
+  EXPECT_NEAR(moved[0], kLarge * s.camera_move.norm(), kLarge);
 }
 
 }  // namespace
