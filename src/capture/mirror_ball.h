@@ -9,8 +9,8 @@ namespace sateen {
 
 /// The light around a chrome ball from one picture of it, as a latitude-longitude map `width` x width / 2:
 /// column u is the longitude 2 pi (u / width - 1/2) counted from -z (straight ahead of the camera) towards
-/// +x, row 0 is up (+y). View space. Directions hidden behind the ball (within half_angle of it) are grown
-/// from their neighbours. `reflectance` is the ball's.
+/// +x, row 0 is up (+y). View space. Directions that only the ball's very rim shows (behind it, some 20
+/// degrees around) go on smoothly from their neighbours. `reflectance` is the ball's.
 Image mirror_ball_environment(const Frame& frame, const Camera& camera, const SphereView& ball, int width,
                               double reflectance);
 
