@@ -14,6 +14,7 @@
 #include "sateen/capture/part_of_progress.h"
 #include "sateen/capture/rig.h"
 #include "sateen/capture/seams.h"
+#include "sateen/capture/standing_still.h"
 #include "sateen/capture/used_frames.h"
 #include "sateen/capture/zero_angle.h"
 #include "sateen/core/direction.h"
@@ -55,8 +56,10 @@ CaptureResult build_capture(const std::vector<std::filesystem::path>& inputs, co
     result.camera.focal = Vec2::Constant(result.focal->focal);
     if (result.focal->informed) result.camera.focal_source = kEstimatedFocal;
   }
+  const StillMask still = find_stand(look, result.warnings);
   const Mat3 axes = eye_frame(-sphere_at(look.camera, look.centre, look.outline.radius).centre.normalized());
-  std::vector<FrameNotes> notes = measure_frames(source, look, axes, part_of(options.progress, 0.1, 0.45));
+  std::vector<FrameNotes> notes =
+      measure_frames(source, look, still, axes, part_of(options.progress, 0.1, 0.45));
   result.frames = frames_of(source, notes);
 
   drop_blurred(notes, result.frames);
@@ -73,7 +76,7 @@ CaptureResult build_capture(const std::vector<std::filesystem::path>& inputs, co
   result.photometry = find_frame_light(notes, look, source.height(), result.frames, result.warnings);
 
   const RectifiedStack stack =
-      collect_stack(source, look, options, part_of(options.progress, 0.5, 0.9), result);
+      collect_stack(source, look, still, options, part_of(options.progress, 0.5, 0.9), result);
   result.mask = find_seams(stack, options, result);
   const double first_angle = find_first_angle(stack, options, result);
   for (CaptureFrame& frame : result.frames) frame.angle = wrap(first_angle + frame.turned, 2 * kPi);

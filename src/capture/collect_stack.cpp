@@ -6,7 +6,6 @@
 
 #include <fmt/format.h>
 
-#include "sateen/capture/standing_still.h"
 #include "sateen/capture/used_frames.h"
 #include "sateen/core/parallel.h"
 
@@ -53,12 +52,12 @@ void count_clipped(const RectifiedStack& stack, CaptureResult& result) {
 
 }  // namespace
 
-RectifiedStack collect_stack(FrameSource& source, const FirstLook& look, const CaptureOptions& options,
-                             const Progress& progress, CaptureResult& result) {
+RectifiedStack collect_stack(FrameSource& source, const FirstLook& look, const StillMask& still,
+                             const CaptureOptions& options, const Progress& progress, CaptureResult& result) {
   // A bright background shines in further than a pixel: the lens blurs, JPEG rings.
   const double rim = 2.5 * look.factor;
   RectifyMap map(result.camera, result.sphere, options.size, options.frame, rim);
-  map.hide(find_stand(look, result.warnings));
+  map.hide(still);
   RectifiedStack stack;
   stack.size = options.size;
   stack.axis = result.axis;

@@ -132,15 +132,15 @@ double code_gain(const FirstLook& look, const std::vector<Vec3f>& samples) {
 
 }  // namespace
 
-std::vector<FrameNotes> measure_frames(FrameSource& source, const FirstLook& look, const Mat3& axes,
-                                       const Progress& progress) {
+std::vector<FrameNotes> measure_frames(FrameSource& source, const FirstLook& look, const StillMask& still,
+                                       const Mat3& axes, const Progress& progress) {
   const double radius = look.outline.radius;
   const int patch_size = std::clamp(static_cast<int>(2 * radius * kPatchReach) / 2 * 2, 48, kLargestPatch);
   const double margin = radius * 1.05 + look.reach + 12;
   const GreyRegion region{
       static_cast<int>(look.centre.x() - margin), static_cast<int>(look.centre.y() - margin),
       static_cast<int>(look.centre.x() + margin) + 1, static_cast<int>(look.centre.y() + margin) + 1};
-  const PatchMap patches(look.camera, sphere_at(look.camera, look.centre, radius), axes, patch_size);
+  const PatchMap patches(look.camera, sphere_at(look.camera, look.centre, radius), axes, patch_size, still);
   std::vector<FrameNotes> notes(static_cast<std::size_t>(source.count()));
   std::vector<int> indices(notes.size());
   std::iota(indices.begin(), indices.end(), 0);

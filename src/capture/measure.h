@@ -7,6 +7,7 @@
 #include "sateen/capture/capture.h"
 #include "sateen/capture/focal_estimate.h"
 #include "sateen/capture/outline.h"
+#include "sateen/capture/still_mask.h"
 #include "sateen/capture/turning.h"
 
 namespace sateen {
@@ -35,7 +36,8 @@ struct FrameNotes {
   std::vector<Vec3f> still;
 };
 
-std::vector<FrameNotes> measure_frames(FrameSource& source, const FirstLook& look, const Mat3& axes,
-                                       const Progress& progress);
+/// `axes` as in PatchMap; `still` as find_stand finds it.
+std::vector<FrameNotes> measure_frames(FrameSource& source, const FirstLook& look, const StillMask& still,
+                                       const Mat3& axes, const Progress& progress);
 
 }  // namespace sateen

@@ -8,26 +8,11 @@
 
 #include "sateen/capture/frame.h"
 #include "sateen/capture/sphere_view.h"
+#include "sateen/capture/still_mask.h"
 
 namespace sateen {
 
 struct RectifiedFrame;
-
-/// Pixels that do not show the sphere though they lie inside its outline: a stand in front.
-struct StillMask {
-  int width = 0;  ///< 0: none
-  int height = 0;
-  int factor = 1;                   ///< picture pixels per pixel of the mask
-  std::vector<std::uint8_t> still;  ///< 1: stands still
-
-  bool hides(float x, float y) const {
-    const auto u = static_cast<int>(x) / factor;
-    const auto v = static_cast<int>(y) / factor;
-    return u >= 0 && v >= 0 && u < width && v < height &&
-           still[static_cast<std::size_t>(v) * static_cast<std::size_t>(width) +
-                 static_cast<std::size_t>(u)] != 0;
-  }
-};
 
 /// Where in the picture each texel of a size x size table slice is seen (row 0 on top). Made once for the
 /// mean sphere; a frame whose sphere is a little beside it moves the samples along.

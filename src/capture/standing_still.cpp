@@ -15,21 +15,21 @@ namespace {
 
 constexpr double kStandContrast = 8;  // codes
 
-/// 1 where a pixel inside `radius` hardly changes. The quietest of a plus of pixels would be chance; the
-/// loudest has to be quiet.
+/// 1 where a pixel inside `radius` hardly changes: the mean square over it and its neighbours, as one pixel
+/// alone may be quiet or loud by chance. How loud noise is depends on how bright a pixel is as well.
 cv::Mat quiet_pixels(const FirstLook& look, double radius) {
+  constexpr double kQuiet = 1.8;  // times the noise
   const int width = look.camera.width;
   const int height = look.camera.height;
-  const std::vector<float>& activity = look.scouting.activity;
+  const cv::Mat activity(height, width, CV_32F, const_cast<float*>(look.scouting.activity.data()));
+  cv::Mat squares;
+  cv::sqrBoxFilter(activity, squares, CV_32F, {3, 3});
   cv::Mat quiet = cv::Mat::zeros(height, width, CV_8U);
-  for (int y = 1; y + 1 < height; ++y) {
-    for (int x = 1; x + 1 < width; ++x) {
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
       if ((Vec2(x + 0.5, y + 0.5) - look.centre).norm() > radius) continue;
-      const auto i = static_cast<std::ptrdiff_t>(y) * width + x;
-      float loudest = 0;
-      for (const std::ptrdiff_t j : {i, i - 1, i + 1, i - width, i + width})
-        loudest = std::max(loudest, activity[static_cast<std::size_t>(j)]);
-      if (static_cast<double>(loudest) < 1.5 * look.scouting.noise) quiet.at<std::uint8_t>(y, x) = 1;
+      const double loudness = std::sqrt(static_cast<double>(squares.at<float>(y, x)));
+      if (loudness < kQuiet * look.scouting.noise) quiet.at<std::uint8_t>(y, x) = 1;
     }
   }
   return quiet;

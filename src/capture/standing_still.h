@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <cstdint>
 #include <string>
 #include <vector>
 
 #include "sateen/capture/measure.h"
-#include "sateen/capture/rectify.h"
+#include "sateen/capture/still_mask.h"
 
 namespace sateen {
 

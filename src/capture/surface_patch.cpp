@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include <opencv2/imgproc.hpp>
 
@@ -37,8 +38,9 @@ float light_at(const GreyPicture& picture, const Vec2f& pixel) {
 
 }  // namespace
 
-PatchMap::PatchMap(const Camera& camera, const SphereView& mean, const Mat3& axes, int size)
-    : size_(size), centre_(mean.centre_pixel(camera)) {
+PatchMap::PatchMap(const Camera& camera, const SphereView& mean, const Mat3& axes, int size, StillMask still)
+    : size_(size), centre_(mean.centre_pixel(camera)), still_(std::move(still)) {
+  still_.factor = 1;
   const double radius = mean.radius_pixel(camera);
   const Mat3 to_view = axes.transpose();
   const SphereView right = sphere_at(camera, centre_ + Vec2(1, 0), radius);
@@ -69,17 +71,26 @@ SurfacePatch PatchMap::patch(const GreyPicture& frame, const Vec2& centre) const
   const Vec2f shift = (centre - centre_).cast<float>();
   cv::Mat light = cv::Mat::zeros(size_, size_, CV_32F);
   auto* lights = light.ptr<float>(0);
-  for (const Place& place : places_)
-    lights[place.index] = light_at(frame, place.at + shift.x() * place.along_x + shift.y() * place.along_y);
+  const bool masked = still_.width > 0;
+  cv::Mat shown = masked ? inside_.clone() : inside_;
+  for (const Place& place : places_) {
+    const Vec2f p = place.at + shift.x() * place.along_x + shift.y() * place.along_y;
+    if (masked && still_.hides(p.x(), p.y())) {
+      shown.ptr<float>(0)[place.index] = 0;
+    } else {
+      lights[place.index] = light_at(frame, p);
+    }
+  }
+  const cv::Mat share = masked ? around(shown) : share_;
   const cv::Mat blurred = around(light);
   const auto pixels = static_cast<Eigen::Index>(size_) * size_;
   const auto row_of = [&](const cv::Mat& picture) {
     return Eigen::Map<const Eigen::ArrayXf>(picture.ptr<float>(0), pixels);
   };
-  // In the dark the detail is noise: the floor keeps it small. Outside of the disc there is no light.
-  const Eigen::ArrayXf mean = row_of(blurred) / row_of(share_).max(1e-6f);
+  // In the dark the detail is noise: the floor keeps it small. Elsewhere there is no light.
+  const Eigen::ArrayXf mean = row_of(blurred) / row_of(share).max(1e-6f);
   const Eigen::ArrayXf detail =
-      row_of(inside_) * ((row_of(light) - mean) / (mean + 0.01f)).max(-1.0f).min(1.0f);
+      row_of(shown) * ((row_of(light) - mean) / (mean + 0.01f)).max(-1.0f).min(1.0f);
   SurfacePatch patch;
   patch.size = size_;
   patch.detail.resize(static_cast<std::size_t>(pixels));

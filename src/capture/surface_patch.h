@@ -8,6 +8,7 @@
 
 #include "sateen/capture/scout.h"
 #include "sateen/capture/sphere_view.h"
+#include "sateen/capture/still_mask.h"
 
 namespace sateen {
 
@@ -27,8 +28,9 @@ inline constexpr double kPatchReach = 0.9;
 /// whose sphere is a little beside it moves the places along.
 class PatchMap {
  public:
-  /// `axes` is the rotation from view space to the patch's frame.
-  PatchMap(const Camera& camera, const SphereView& mean, const Mat3& axes, int size);
+  /// `axes` is the rotation from view space to the patch's frame. What lies under `still`, which hides pixels
+  /// of the grey pictures, has no detail.
+  PatchMap(const Camera& camera, const SphereView& mean, const Mat3& axes, int size, StillMask still);
 
   /// The patch of a frame whose sphere's centre is seen at `centre`, grey pixels.
   SurfacePatch patch(const GreyPicture& frame, const Vec2& centre) const;
@@ -46,7 +48,8 @@ class PatchMap {
   Vec2 centre_{0, 0};
   std::vector<Place> places_;
   cv::Mat inside_;  // 1: the pixel lies on the disc
-  cv::Mat share_;   // of each pixel's neighbourhood that lies on the disc
+  StillMask still_;
+  cv::Mat share_;  // of each pixel's neighbourhood that lies on the disc
 };
 
 }  // namespace sateen

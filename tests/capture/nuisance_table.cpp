@@ -117,6 +117,10 @@ int main(int argc, char** argv) {
   });
   row("grey photographs", [](S& s, bool&) { s.grey = true; });
   row("post in front", [](S& s, bool&) { s.covered = true; });
+  row("post in front, wobble 3 pixels", [](S& s, bool&) {
+    s.covered = true;
+    s.wobble = {2.5, 1.5};
+  });
   row("blurred and repeated frames", [](S& s, bool&) {
     s.shaken = {9, 30};
     s.repeated = {20, 21, 40};
