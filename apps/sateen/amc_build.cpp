@@ -17,7 +17,7 @@
 namespace sateen::cli {
 namespace {
 
-struct Arguments {
+struct AmcBuildArguments {
   FrameArguments frames;
   std::filesystem::path output;
   int slices = 128;
@@ -32,7 +32,7 @@ AmcEncoding chosen_encoding(const std::string& name, bool floating) {
   return name == "half" ? AmcEncoding::half : AmcEncoding::srgb8;
 }
 
-void run(const Arguments& arguments) {
+void run(const AmcBuildArguments& arguments) {
   const LoadedFrames loaded = load(arguments.frames);
   SymmetryReport report = analyse_symmetry(loaded.frames, arguments.threshold);
   BuildAmcOptions options;
@@ -68,7 +68,7 @@ void run(const Arguments& arguments) {
 }  // namespace
 
 void add_amc_build(CLI::App& parent) {
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<AmcBuildArguments>();
   CLI::App* command =
       add_command(parent, "build", "Make an Anisotropic MatCap from rectified frames of a turning sphere",
                   "sateen amc build examples/silk -o silk.ktx2");

@@ -6,12 +6,12 @@
 namespace sateen::cli {
 
 void add_amc_convert(CLI::App& parent) {
-  struct Arguments {
+  struct AmcConvertArguments {
     std::filesystem::path input;
     std::filesystem::path output;
     std::string encoding = "keep";
   };
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<AmcConvertArguments>();
   CLI::App* command =
       add_command(parent, "convert", "Change an AMC's encoding, or between .ktx2 and a folder of slices",
                   "sateen amc convert silk.ktx2 -o silk_slices");

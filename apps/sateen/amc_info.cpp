@@ -56,11 +56,11 @@ std::string as_text(const nlohmann::json& info) {
 }  // namespace
 
 void add_amc_info(CLI::App& parent) {
-  struct Arguments {
+  struct AmcInfoArguments {
     fs::path input;
     bool json = false;
   };
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<AmcInfoArguments>();
   CLI::App* command =
       add_command(parent, "info", "Say everything about an AMC file", "sateen amc info silk.ktx2 --json");
   command->add_option("amc", arguments->input, "The AMC: .ktx2 or a folder of slices")->required();

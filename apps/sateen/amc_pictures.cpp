@@ -8,7 +8,7 @@
 namespace sateen::cli {
 namespace {
 
-struct Arguments {
+struct AmcPicturesArguments {
   std::filesystem::path input;
   std::filesystem::path output;
 };
@@ -16,7 +16,7 @@ struct Arguments {
 /// A command that reads an AMC and writes the picture `draw` makes of it.
 void add_picture_command(CLI::App& parent, const char* name, const char* summary, const char* example,
                          Image (*draw)(const AmcTable&)) {
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<AmcPicturesArguments>();
   CLI::App* command = add_command(parent, name, summary, example);
   command->add_option("amc", arguments->input, "The AMC: .ktx2 or a folder of slices")->required();
   command->add_option("-o,--output", arguments->output, "The picture: .png or .exr")->required();

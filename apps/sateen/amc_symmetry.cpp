@@ -8,7 +8,7 @@
 namespace sateen::cli {
 namespace {
 
-struct Arguments {
+struct AmcSymmetryArguments {
   FrameArguments frames;
   double threshold = kDefaultSymmetryThreshold;
   bool json = false;
@@ -32,7 +32,7 @@ std::string as_text(const SymmetryReport& report) {
 }  // namespace
 
 void add_amc_symmetry(CLI::App& parent) {
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<AmcSymmetryArguments>();
   CLI::App* command = add_command(parent, "symmetry", "Report which turns leave a captured material alike",
                                   "sateen amc symmetry examples/silk");
   add_frame_options(*command, arguments->frames);

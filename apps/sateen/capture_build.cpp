@@ -8,14 +8,14 @@
 namespace sateen::cli {
 namespace {
 
-struct Arguments {
+struct CaptureBuildArguments {
   std::vector<std::filesystem::path> inputs;
   std::filesystem::path output;
   CaptureArguments capture;
   bool json = false;
 };
 
-void run(const Arguments& arguments) {
+void run(const CaptureBuildArguments& arguments) {
   CaptureOptions options = capture_options(arguments.capture);
   take_stage_angles(arguments.capture, arguments.inputs, options);
   options.progress = progress_bar("capture");
@@ -29,7 +29,7 @@ void run(const Arguments& arguments) {
 }  // namespace
 
 void add_capture_build(CLI::App& parent) {
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<CaptureBuildArguments>();
   CLI::App* command =
       add_command(parent, "build",
                   "Make an Anisotropic MatCap from photographs or a video of a turning, cloth-covered sphere",

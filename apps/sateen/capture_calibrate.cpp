@@ -11,7 +11,7 @@
 namespace sateen::cli {
 namespace {
 
-struct Arguments {
+struct CaptureCalibrateArguments {
   std::vector<std::filesystem::path> inputs;
   std::filesystem::path output;
   int columns = 9;
@@ -19,7 +19,7 @@ struct Arguments {
   bool json = false;
 };
 
-void run(const Arguments& arguments) {
+void run(const CaptureCalibrateArguments& arguments) {
   const auto files = expand_inputs(arguments.inputs, image_extensions());
   const Calibration found = calibrate(files, arguments.columns, arguments.rows);
   for (const std::string& file : found.unusable)
@@ -39,7 +39,7 @@ void run(const Arguments& arguments) {
 }  // namespace
 
 void add_capture_calibrate(CLI::App& parent) {
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<CaptureCalibrateArguments>();
   CLI::App* command =
       add_command(parent, "calibrate", "Measure a camera's lens with pictures of a chessboard",
                   "sateen capture calibrate boards --columns 9 --rows 6 -o camera.json");

@@ -14,7 +14,7 @@
 namespace sateen::cli {
 namespace {
 
-struct Arguments {
+struct CaptureLiveArguments {
   LiveOptions live;
   GrblOptions grbl;
   std::string stage = "manual";
@@ -25,7 +25,7 @@ struct Arguments {
   CaptureArguments capture;
 };
 
-std::unique_ptr<Stage> open_stage(const Arguments& arguments) {
+std::unique_ptr<Stage> open_stage(const CaptureLiveArguments& arguments) {
   if (arguments.stage == "continuous")
     return continuous_stage(std::chrono::milliseconds(std::llround(arguments.turn_seconds * 1000)));
   if (arguments.stage == "manual") {
@@ -41,7 +41,7 @@ std::unique_ptr<Stage> open_stage(const Arguments& arguments) {
   return open_grbl_stage(arguments.stage.substr(5), options);
 }
 
-void run(const Arguments& arguments) {
+void run(const CaptureLiveArguments& arguments) {
   CaptureOptions options = capture_options(arguments.capture);
   const auto stage = open_stage(arguments);
   const auto camera = open_live_camera(arguments.camera);
@@ -62,7 +62,7 @@ void run(const Arguments& arguments) {
 }  // namespace
 
 void add_capture_live(CLI::App& parent) {
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<CaptureLiveArguments>();
   CLI::App* command = add_command(
       parent, "live", "Shoot a capture with a camera and a turning stage; resumes what was interrupted",
       "sateen capture live --camera 0 --frames 128 --stage grbl:/dev/ttyUSB0 --folder shots -o cloth.ktx2 "

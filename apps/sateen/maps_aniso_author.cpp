@@ -6,7 +6,7 @@
 namespace sateen::cli {
 namespace {
 
-struct Arguments {
+struct MapsAnisoAuthorArguments {
   std::filesystem::path output;
   std::string style = "uv";
   std::string roughness_u, roughness_v, gloss_u, gloss_v;
@@ -24,7 +24,7 @@ MapInput angle_input(const std::string& text) {
   return input;
 }
 
-void refuse(const Arguments& a, bool uv) {
+void refuse(const MapsAnisoAuthorArguments& a, bool uv) {
   const bool uv_given =
       !a.roughness_u.empty() || !a.roughness_v.empty() || !a.gloss_u.empty() || !a.gloss_v.empty();
   const bool other_given = !a.roughness.empty() || !a.amount.empty();
@@ -44,7 +44,7 @@ void refuse(const Arguments& a, bool uv) {
   }
 }
 
-void run(const Arguments& a) {
+void run(const MapsAnisoAuthorArguments& a) {
   AuthorInputs in;
   in.style = anisotropy_style_from_name(a.style);
   const bool uv = in.style == AnisotropyStyle::uv;
@@ -68,7 +68,7 @@ void run(const Arguments& a) {
 }  // namespace
 
 void add_maps_aniso_author(CLI::App& parent) {
-  auto a = std::make_shared<Arguments>();
+  auto a = std::make_shared<MapsAnisoAuthorArguments>();
   CLI::App* command = add_command(
       parent, "author", "Make an anisotropy map from roughness and direction maps",
       "sateen maps aniso author --roughness-u 0.6 --roughness-v 0.3 --rotation 30 -o aniso.png\n\n"

@@ -6,7 +6,7 @@
 namespace sateen::cli {
 namespace {
 
-struct Arguments {
+struct MapsAnisoDecodeArguments {
   std::filesystem::path input;
   std::filesystem::path output;
   std::string style = "alphas";
@@ -17,7 +17,7 @@ struct Arguments {
 }  // namespace
 
 void add_maps_aniso_decode(CLI::App& parent) {
-  auto a = std::make_shared<Arguments>();
+  auto a = std::make_shared<MapsAnisoDecodeArguments>();
   CLI::App* command = add_command(
       parent, "decode", "Turn an anisotropy map back into what other programs read",
       "sateen maps aniso decode aniso.png --style blender -o roughness_anisotropic_rotation.png\n\n"

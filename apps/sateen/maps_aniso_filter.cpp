@@ -11,7 +11,7 @@
 namespace sateen::cli {
 namespace {
 
-struct Arguments {
+struct MapsAnisoFilterArguments {
   LobeMapFiles files;
   std::filesystem::path output;
   std::vector<double> roughness_values;
@@ -33,7 +33,7 @@ struct Arguments {
   bool json = false;
 };
 
-LobeOutput::Kind kind_of(const Arguments& a) {
+LobeOutput::Kind kind_of(const MapsAnisoFilterArguments& a) {
   const std::string extension = extension_of(a.output);
   if (extension == ".png") return a.bits == 8 ? LobeOutput::Kind::png8 : LobeOutput::Kind::png;
   if (extension == ".exr") return LobeOutput::Kind::exr;
@@ -41,7 +41,7 @@ LobeOutput::Kind kind_of(const Arguments& a) {
   throw Error(fmt::format("{}: a mip chain is written as .png, .exr or .ktx2", a.output.string()));
 }
 
-void run(Arguments a) {
+void run(MapsAnisoFilterArguments a) {
   if (!a.files.anisotropy.empty() && (!a.files.roughness.empty() || !a.roughness_values.empty())) {
     throw CLI::ValidationError("give either --aniso or a roughness, not both");
   }
@@ -95,7 +95,7 @@ void run(Arguments a) {
 }  // namespace
 
 void add_maps_aniso_filter(CLI::App& parent) {
-  auto a = std::make_shared<Arguments>();
+  auto a = std::make_shared<MapsAnisoFilterArguments>();
   CLI::App* command =
       add_command(parent, "filter", "Make the mip chains of a normal map and an anisotropy map together",
                   "sateen maps aniso filter --normals examples/textures/weave_normal.png --constant 0.5 0.25 "

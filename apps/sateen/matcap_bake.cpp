@@ -15,7 +15,7 @@
 namespace sateen::cli {
 namespace {
 
-struct Arguments {
+struct MatcapBakeArguments {
   std::filesystem::path input;
   std::filesystem::path output;
   std::filesystem::path edits;
@@ -26,7 +26,7 @@ struct Arguments {
   int environment_height = 512;
 };
 
-void run(const Arguments& arguments) {
+void run(const MatcapBakeArguments& arguments) {
   if (arguments.layers && !arguments.environment.empty()) {
     throw CLI::ValidationError("--layers", "and --environment exclude each other");
   }
@@ -56,7 +56,7 @@ void run(const Arguments& arguments) {
 }  // namespace
 
 void add_matcap_bake(CLI::App& parent) {
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<MatcapBakeArguments>();
   CLI::App* command =
       add_command(parent, "bake", "Turn a decomposed MatCap, edited or not, back into pictures",
                   "sateen matcap bake decomposed/lead.ktx2 --turn 0,40,0 -o lead_turned.png");

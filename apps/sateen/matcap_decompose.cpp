@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Arguments {
+struct MatcapDecomposeArguments {
   MatcapArguments matcap;
   std::vector<fs::path> inputs;
   fs::path output;
@@ -25,7 +25,7 @@ struct Arguments {
   bool anew = false;
 };
 
-void run(const Arguments& arguments) {
+void run(const MatcapDecomposeArguments& arguments) {
   DecomposeFileOptions options;
   options.decompose.space = space_of(arguments.matcap);
   options.decompose.outliers = outliers_of(arguments.matcap);
@@ -62,7 +62,7 @@ void run(const Arguments& arguments) {
 }  // namespace
 
 void add_matcap_decompose(CLI::App& parent) {
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<MatcapDecomposeArguments>();
   CLI::App* command =
       add_command(parent, "decompose", "Take MatCaps apart, so that their light and material can be changed",
                   "sateen matcap decompose examples/matcaps -o decomposed");

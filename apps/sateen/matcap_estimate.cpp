@@ -16,7 +16,7 @@
 namespace sateen::cli {
 namespace {
 
-struct Arguments {
+struct MatcapEstimateArguments {
   MatcapArguments matcap;
   std::filesystem::path input;
   std::filesystem::path plot;
@@ -68,7 +68,7 @@ std::string as_text(const char* name, const FilterEstimate& estimate) {
                          : "assumed: nothing sharp enough to measure");
 }
 
-void run(const Arguments& arguments) {
+void run(const MatcapEstimateArguments& arguments) {
   const std::string name = arguments.input.string();
   const auto regions = regions_of(arguments.matcap);
   const MatcapPicture picture = read_matcap_picture(arguments.input, disc_of(arguments.matcap));
@@ -94,7 +94,7 @@ void run(const Arguments& arguments) {
 }  // namespace
 
 void add_matcap_estimate(CLI::App& parent) {
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<MatcapEstimateArguments>();
   CLI::App* command = add_command(parent, "estimate", "Measure how much a MatCap's material blurs its light",
                                   "sateen matcap estimate examples/matcaps/lead.exr --plot signatures.svg");
   command->add_option("matcap", arguments->input, "The MatCap, any picture")->required();

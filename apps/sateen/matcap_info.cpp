@@ -34,11 +34,11 @@ std::string as_text(const std::filesystem::path& path, const MatcapDecomposition
 }  // namespace
 
 void add_matcap_info(CLI::App& parent) {
-  struct Arguments {
+  struct MatcapInfoArguments {
     std::filesystem::path input;
     bool json = false;
   };
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<MatcapInfoArguments>();
   CLI::App* command = add_command(parent, "info", "Say everything about a decomposed MatCap",
                                   "sateen matcap info decomposed/lead.ktx2 --json");
   command->add_option("matcap", arguments->input, "The .ktx2 that decompose wrote")->required();

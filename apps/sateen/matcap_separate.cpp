@@ -11,13 +11,13 @@
 namespace sateen::cli {
 
 void add_matcap_separate(CLI::App& parent) {
-  struct Arguments {
+  struct MatcapSeparateArguments {
     MatcapArguments matcap;
     std::filesystem::path input;
     std::filesystem::path low;
     std::filesystem::path high;
   };
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<MatcapSeparateArguments>();
   CLI::App* command =
       add_command(parent, "separate", "Split a MatCap into low- and high-frequency parts that add up to it",
                   "sateen matcap separate examples/matcaps/ceramic.exr --low low.exr --high high.exr");

@@ -23,7 +23,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Arguments {
+struct RenderArguments {
   SceneArguments scene;
   fs::path output;
   std::string size = "1024x1024";
@@ -38,7 +38,7 @@ struct Arguments {
   std::string compare;
 };
 
-Camera camera(const Arguments& arguments) {
+Camera camera(const RenderArguments& arguments) {
   Camera result;
   if (arguments.camera == "orthographic") result.kind = Camera::Kind::orthographic;
   if (arguments.camera == "view-space") result.kind = Camera::Kind::view_space;
@@ -46,7 +46,7 @@ Camera camera(const Arguments& arguments) {
   return result;
 }
 
-PictureSettings picture_settings(const Arguments& arguments) {
+PictureSettings picture_settings(const RenderArguments& arguments) {
   PictureSettings settings;
   std::tie(settings.width, settings.height) = parse_size("--size", arguments.size);
   settings.samples = arguments.samples;
@@ -60,7 +60,7 @@ PictureSettings picture_settings(const Arguments& arguments) {
 }
 
 /// One rotation for a still, one for each picture of a turntable: the object turns about the view's vertical.
-std::vector<Mat3> rotations(const Arguments& arguments) {
+std::vector<Mat3> rotations(const RenderArguments& arguments) {
   const Mat3 still = rotation_xyz(parse_vector("--rotate", arguments.rotate) * (kPi / 180));
   std::vector<Mat3> result;
   for (int i = 0; i < std::max(1, arguments.turntable); ++i) {
@@ -91,7 +91,7 @@ void write_aovs(const Frame& frame, const fs::path& picture, const std::vector<s
 }
 
 /// The same scene in the material to compare with, if there is one.
-std::optional<Renderer> other_renderer(const Arguments& arguments) {
+std::optional<Renderer> other_renderer(const RenderArguments& arguments) {
   if (arguments.compare.empty()) return std::nullopt;
   SceneArguments scene = arguments.scene;
   scene.materials = {arguments.compare};
@@ -112,7 +112,7 @@ Image beside(const Image& left, const Image& right) {
   return both;
 }
 
-void check_aovs(const Arguments& arguments) {
+void check_aovs(const RenderArguments& arguments) {
   for (const std::string& name : arguments.aovs) {
     if (std::ranges::count(aov_names(), name) == 0) {
       throw CLI::ValidationError(
@@ -124,7 +124,7 @@ void check_aovs(const Arguments& arguments) {
   }
 }
 
-void run(const Arguments& arguments) {
+void run(const RenderArguments& arguments) {
   const PictureSettings settings = picture_settings(arguments);
   const std::vector<Mat3> poses = rotations(arguments);
   check_aovs(arguments);
@@ -163,7 +163,7 @@ void run(const Arguments& arguments) {
 }  // namespace
 
 void add_render(CLI::App& parent) {
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<RenderArguments>();
   CLI::App* command = add_command(
       parent, "render", "Draw a mesh with a material, without a screen",
       "sateen render examples/garment/jacket.obj --material silk.ktx2 --rotate 0,25,0 -o jacket.png");

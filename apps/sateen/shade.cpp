@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Arguments {
+struct ShadeArguments {
   fs::path normals;
   fs::path tangents;
   fs::path positions;
@@ -27,7 +27,7 @@ struct Arguments {
   fs::path output;
 };
 
-void run(const Arguments& arguments) {
+void run(const ShadeArguments& arguments) {
   const auto appearance = arguments.environment.empty()
                               ? load_appearance(arguments.material)
                               : load_appearance(arguments.material, read_environment(arguments.environment));
@@ -45,7 +45,7 @@ void run(const Arguments& arguments) {
 }  // namespace
 
 void add_shade(CLI::App& parent) {
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<ShadeArguments>();
   CLI::App* command = add_command(
       parent, "shade", "Shade pictures of normals and tangents with a material, without drawing",
       "sateen shade --normals jacket.normal.exr --tangents jacket.tangent.exr --material silk.ktx2 "

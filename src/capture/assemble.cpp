@@ -130,7 +130,7 @@ class Fit {
 };
 
 /// Frames and slices lie far apart in memory: this many texels of a row are fetched and put there together.
-constexpr int kBlock = 32;
+constexpr int kTogether = 32;
 
 /// Sorts by angle. A turn ascends from wherever it starts: that needs no more than a rotation.
 void put_in_order(std::vector<Sample>& samples) {
@@ -158,13 +158,14 @@ class Samples {
   }
 
   /// Of the `count` texels from `first` on, ascending in angle.
-  void collect(std::size_t first, std::size_t count, std::array<std::vector<Sample>, kBlock>& samples) const {
+  void collect(std::size_t first, std::size_t count,
+               std::array<std::vector<Sample>, kTogether>& samples) const {
     std::vector<TangentAngle> tangents;
     for (std::size_t u = 0; u < count; ++u) {
       samples[u].clear();
       tangents.emplace_back(stack_.points[first + u], stack_.frame, axes_);
     }
-    std::array<float, 3 * kBlock> light;
+    std::array<float, 3 * kTogether> light;
     for (std::size_t f = 0; f < stack_.frames.size(); ++f) {
       const RectifiedFrame& frame = stack_.frames[f];
       to_floats(std::span(frame.rgb).subspan(3 * first, 3 * count), light.data());
@@ -218,13 +219,13 @@ AssembledSlices assemble(const RectifiedStack& stack, const SurfaceMask& mask, d
                [&](int slice) { result.slices[static_cast<std::size_t>(slice)] = Image(size, size, 3); });
   result.seen.assign(texels * static_cast<std::size_t>(count), 0);
   parallel_for(size, [&](int y) {
-    std::array<std::vector<Sample>, kBlock> samples;
+    std::array<std::vector<Sample>, kTogether> samples;
     std::vector<Sample> repeated;
-    std::vector<float> light(static_cast<std::size_t>(count * kBlock * 3));
-    std::vector<std::uint8_t> known(static_cast<std::size_t>(count * kBlock));
-    for (int x = 0; x < size; x += kBlock) {
+    std::vector<float> light(static_cast<std::size_t>(count * kTogether * 3));
+    std::vector<std::uint8_t> known(static_cast<std::size_t>(count * kTogether));
+    for (int x = 0; x < size; x += kTogether) {
       const auto first = static_cast<std::size_t>(y * size + x);
-      const auto width = static_cast<std::size_t>(std::min(kBlock, size - x));
+      const auto width = static_cast<std::size_t>(std::min(kTogether, size - x));
       all.collect(first, width, samples);
       std::ranges::fill(light, 0.0f);
       std::ranges::fill(known, std::uint8_t{0});
@@ -238,13 +239,13 @@ AssembledSlices assemble(const RectifiedStack& stack, const SurfaceMask& mask, d
           std::array<float, 3> rgb{};
           const Known how = fit.at(period * static_cast<double>(slice) / count, rgb);
           if (how == Known::no) continue;
-          known[slice * kBlock + u] = how == Known::measured ? 1 : 2;
-          for (std::size_t c = 0; c < 3; ++c) light[(slice * kBlock + u) * 3 + c] = std::max(0.0f, rgb[c]);
+          known[slice * kTogether + u] = how == Known::measured ? 1 : 2;
+          for (std::size_t c = 0; c < 3; ++c) light[(slice * kTogether + u) * 3 + c] = std::max(0.0f, rgb[c]);
         }
       }
       for (std::size_t slice = 0; slice < static_cast<std::size_t>(count); ++slice) {
-        std::copy_n(&light[slice * kBlock * 3], width * 3, &result.slices[slice].data[first * 3]);
-        std::copy_n(&known[slice * kBlock], width, &result.seen[slice * texels + first]);
+        std::copy_n(&light[slice * kTogether * 3], width * 3, &result.slices[slice].data[first * 3]);
+        std::copy_n(&known[slice * kTogether], width, &result.seen[slice * texels + first]);
       }
     }
   });

@@ -38,16 +38,16 @@ float dark_floor(const RectifiedStack& stack) {
 
 constexpr std::int8_t kUnknown = -128;
 constexpr std::size_t kMostNeighbours = 16;  // a median needs no more
-constexpr int kBlock = 8;
+constexpr int kColumns = 8;
 
-/// A value for each of kBlock texels beside each other.
-using Columns = Eigen::Array<float, kBlock, 1>;
+/// A value for each of kColumns texels beside each other.
+using Columns = Eigen::Array<float, kColumns, 1>;
 
-/// What one frame has for a block of texels.
+/// What one frame has for kColumns texels beside each other.
 struct BlockLight {
-  std::array<Columns, 3> light;               // log, per channel
-  std::array<std::uint8_t, kBlock> usable{};  // 0: unseen, 1: seen, 2: seen but known to be a blemish
-  bool whole = false;                         // all are 1
+  std::array<Columns, 3> light;                 // log, per channel
+  std::array<std::uint8_t, kColumns> usable{};  // 0: unseen, 1: seen, 2: seen but known to be a blemish
+  bool whole = false;                           // all are 1
 };
 
 std::size_t usable_in(std::span<const BlockLight* const> rows, std::size_t column) {
@@ -82,7 +82,7 @@ Columns middle_of_columns(std::span<const BlockLight* const> rows, std::size_t c
   constexpr float kInfinity = std::numeric_limits<float>::infinity();
   for (std::size_t i = n; i < v.size(); ++i) v[i] = Columns::Constant(i % 2 == 0 ? kInfinity : -kInfinity);
   if (!std::ranges::all_of(rows, &BlockLight::whole)) {
-    for (std::size_t column = 0; column < kBlock; ++column) {
+    for (std::size_t column = 0; column < kColumns; ++column) {
       std::size_t below = kMostNeighbours / 2 - usable_in(rows, column) / 2 - (kMostNeighbours - n + 1) / 2;
       for (std::size_t i = 0; i < n; ++i) {
         if (rows[i]->usable[column] == 1) continue;
@@ -147,7 +147,7 @@ void find_deviations(const RectifiedStack& stack, const SurfaceMask& already, De
     }
     neighbours[f].resize(kept);
   }
-  const int blocks = (stack.size + kBlock - 1) / kBlock;
+  const int blocks = (stack.size + kColumns - 1) / kColumns;
   const float darkest = std::log(3 * dark);
   const std::vector<float> logarithm = log_light(dark);
   std::vector<Vec2> turned;
@@ -156,14 +156,14 @@ void find_deviations(const RectifiedStack& stack, const SurfaceMask& already, De
     std::vector<BlockLight> light(frames);
     std::vector<const BlockLight*> around;
     for (int block = 0; block < blocks; ++block) {
-      const int first = block * kBlock;
+      const int first = block * kColumns;
       bool any = false;  // seen at all
       bool excluded = false;
       for (std::size_t f = 0; f < frames; ++f) {
         const RectifiedFrame& frame = stack.frames[f];
         BlockLight& here = light[f];
         here.whole = true;
-        for (int u = 0; u < kBlock; ++u) {
+        for (int u = 0; u < kColumns; ++u) {
           const auto i = static_cast<std::size_t>(row) * static_cast<std::size_t>(stack.size) +
                          static_cast<std::size_t>(std::min(first + u, stack.size - 1));
           std::uint8_t& use = here.usable[static_cast<std::size_t>(u)];
@@ -182,13 +182,13 @@ void find_deviations(const RectifiedStack& stack, const SurfaceMask& already, De
       for (std::size_t f = 0; f < frames; f += step) {
         around.clear();
         for (const std::size_t g : neighbours[f]) around.push_back(&light[g]);
-        std::array<bool, kBlock> known{};  // usable, and enough of the angles around as well
-        for (std::size_t column = 0; column < kBlock; ++column)
+        std::array<bool, kColumns> known{};  // usable, and enough of the angles around as well
+        for (std::size_t column = 0; column < kColumns; ++column)
           known[column] = light[f].usable[column] != 0 && usable_in(around, column) >= 3;
         for (std::size_t c = 0; c < 3; ++c) {
           const Columns expected = middle_of_columns(around, c);
           const Columns deviation = (light[f].light[c] - expected).max(-1.2f).min(1.2f);
-          for (std::size_t column = 0; column < kBlock; ++column) {
+          for (std::size_t column = 0; column < kColumns; ++column) {
             const auto u = static_cast<Eigen::Index>(column);
             const auto i = static_cast<std::size_t>(row) * static_cast<std::size_t>(stack.size) +
                            static_cast<std::size_t>(first) + column;

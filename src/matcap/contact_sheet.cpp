@@ -21,7 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kTile = 128;
+constexpr int kPreviewSize = 128;
 constexpr double kTurn = 50;  // degrees
 constexpr const char* kTiles[] = {"MatCap",     "low",       "high",       "low front",   "low back",
                                   "high front", "high back", "light left", "light right", "light from above"};
@@ -72,8 +72,8 @@ Image on_black(Image image, const Disc& disc) {
 
 /// Tiles in the order of kTiles, side by side.
 Image strip_of(MatcapDecomposition matcap) {
-  matcap.width = matcap.height = kTile;
-  matcap.disc = inscribed_disc(kTile, kTile);
+  matcap.width = matcap.height = kPreviewSize;
+  matcap.disc = inscribed_disc(kPreviewSize, kPreviewSize);
   const Disc disc = matcap.disc;
   matcap.kept.clear();  // of the size it had
   EditedMatcap edited = unedited(std::move(matcap));
@@ -87,7 +87,7 @@ Image strip_of(MatcapDecomposition matcap) {
   for (const Part part : kParts) {
     const SphereMap& map = edited.matcap[part].map.levels.front();
     for (const Image* side : {&map.front, &map.back}) {
-      Image tile = resized(*side, kTile, kTile);
+      Image tile = resized(*side, kPreviewSize, kPreviewSize);
       if (edited.matcap.space == AddUpSpace::display) tile = srgb_decoded(std::move(tile));
       tiles.push_back(std::move(tile));
     }
@@ -96,10 +96,11 @@ Image strip_of(MatcapDecomposition matcap) {
     edited.light = rotation_xyz(degrees_about * (kPi / 180));
     tiles.push_back(on_black(bake(edited), disc));
   }
-  Image strip(kTile * static_cast<int>(tiles.size()), kTile, 3);
+  Image strip(kPreviewSize * static_cast<int>(tiles.size()), kPreviewSize, 3);
   for (std::size_t i = 0; i < tiles.size(); ++i) {
-    for (int y = 0; y < kTile; ++y) {
-      for (int x = 0; x < kTile; ++x) strip.set_rgb(static_cast<int>(i) * kTile + x, y, tiles[i].rgb(x, y));
+    for (int y = 0; y < kPreviewSize; ++y) {
+      for (int x = 0; x < kPreviewSize; ++x)
+        strip.set_rgb(static_cast<int>(i) * kPreviewSize + x, y, tiles[i].rgb(x, y));
     }
   }
   return strip;
@@ -125,7 +126,7 @@ std::string row_of(const fs::path& folder, const BatchEntry& entry) {
   return fmt::format(
       "<section><h2>{}</h2><img loading=\"lazy\" src=\"sheet/{}\" width=\"{}\" height=\"{}\" alt=\"{}\">"
       "<p>{}<br>{}</p></section>\n",
-      escaped(name), url_of(name + ".png"), kTile * static_cast<int>(std::size(kTiles)), kTile,
+      escaped(name), url_of(name + ".png"), kPreviewSize * static_cast<int>(std::size(kTiles)), kPreviewSize,
       escaped(name + ": MatCap, parts, maps, turned lights"), describe(matcap[Part::low], "low"),
       describe(matcap[Part::high], "high"));
 }

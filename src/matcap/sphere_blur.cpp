@@ -19,14 +19,14 @@ constexpr double kLookupBlur = 0.1;
 constexpr int kSmallest = 4;  // texels across the last level
 
 /// So many neighbours in a row are weighed at once.
-constexpr std::size_t kLanes = 4;
-using Lanes = Eigen::Array<float, kLanes, 1>;
+constexpr std::size_t kAtOnce = 4;
+using Lanes = Eigen::Array<float, kAtOnce, 1>;
 
 /// One number for each texel of a map, row by row, and room to read whole lanes from the last.
 using Plane = std::vector<float>;
 
 Plane plane_of(int size) {
-  return Plane(static_cast<std::size_t>(size) * static_cast<std::size_t>(size) + kLanes, 0.0F);
+  return Plane(static_cast<std::size_t>(size) * static_cast<std::size_t>(size) + kAtOnce, 0.0F);
 }
 
 std::size_t texel_index(int size, int x, int y) {
@@ -92,7 +92,7 @@ void gather(const Geometry& map, const Colours& colours, std::size_t first, std:
     return Eigen::Map<const Lanes>(plane.data() + i);
   };
   const Vec3f scaled = scale * w;
-  for (std::size_t i = first; i < end; i += kLanes) {
+  for (std::size_t i = first; i < end; i += kAtOnce) {
     // d^2 = 2 (1 - w . texel), so that 1 - d^2 / d0^2 = 1 - scale + scale (w . texel).
     Lanes q = (1 - scale) + scaled.x() * lanes(map.x, i) + scaled.y() * lanes(map.y, i) +
               scaled.z() * lanes(map.z, i);

@@ -28,7 +28,7 @@ using testing::Contains;
 using testing::HasSubstr;
 using testing::Not;
 
-Simulation small() {
+Simulation mid_sized() {
   Simulation s;
   s.width = 480;
   s.height = 288;
@@ -42,7 +42,7 @@ Simulation small() {
 }
 
 TEST(CaptureRig, AnAxisTiltedByFiveDegreesIsFound) {
-  Simulation s = small();
+  Simulation s = mid_sized();
   s.tilt = {3, -4};
   s.unevenness = 0.6;
   const CaptureResult result = capture_of(s, informed_options(s));
@@ -54,7 +54,7 @@ TEST(CaptureRig, AnAxisTiltedByFiveDegreesIsFound) {
 }
 
 TEST(CaptureRig, AnglesThatThePicturesContradictAreDoubted) {
-  Simulation s = small();
+  Simulation s = mid_sized();
   CaptureOptions options = informed_options(s);
   options.angle_source = AngleSource::given;
   for (int i = 0; i < s.frames; ++i) options.angles.push_back(s.angle(i) + radians(6) * std::sin(s.angle(i)));
@@ -62,7 +62,7 @@ TEST(CaptureRig, AnglesThatThePicturesContradictAreDoubted) {
 }
 
 TEST(CaptureRig, AnglesOfAnotherDirectionOrTurnAreTold) {
-  Simulation s = small();
+  Simulation s = mid_sized();
   s.tilt = {4, 0};
   CaptureOptions options = informed_options(s);
   options.angle_source = AngleSource::equal;
@@ -75,7 +75,7 @@ TEST(CaptureRig, AnglesOfAnotherDirectionOrTurnAreTold) {
 }
 
 TEST(CaptureRig, HeavyNoiseIsAveragedOut) {
-  Simulation s = small();
+  Simulation s = mid_sized();
   s.noise = 5;
   s.unevenness = 0.5;
   const CaptureResult result = capture_of(s, informed_options(s));
@@ -87,7 +87,7 @@ TEST(CaptureRig, HeavyNoiseIsAveragedOut) {
 }
 
 TEST(CaptureRig, BlackFramesAreLeftOutWithAWarning) {
-  Simulation s = small();
+  Simulation s = mid_sized();
   s.black = {0, 14, 15};
   CaptureOptions options = informed_options(s);
   options.zero = ZeroAngle::thread;
@@ -103,7 +103,7 @@ TEST(CaptureRig, BlackFramesAreLeftOutWithAWarning) {
 }
 
 TEST(CaptureRig, WhatTheSeamHidesIsMeasuredHalfATurnOn) {
-  Simulation s = small();
+  Simulation s = mid_sized();
   s.seam = true;
   const test::TemporaryFolder folder;
   s.write(folder.path());
@@ -118,7 +118,7 @@ TEST(CaptureRig, WhatTheSeamHidesIsMeasuredHalfATurnOn) {
 }
 
 TEST(CaptureRig, PortraitGreyAndNear) {
-  Simulation s = small();
+  Simulation s = mid_sized();
   std::swap(s.width, s.height);
   s.centre = {141, 250};
   s.grey = true;
@@ -134,7 +134,7 @@ TEST(CaptureRig, PortraitGreyAndNear) {
 }
 
 TEST(CaptureRig, ADamagedPhotographIsNamed) {
-  Simulation s = small();
+  Simulation s = mid_sized();
   s.frames = 14;
   const test::TemporaryFolder folder;
   for (int i = 0; i < s.frames; ++i) {

@@ -36,7 +36,7 @@ constexpr const char* kChanges = R"([{"edit": "turn", "degrees": [20, -50, 10]},
                             {"edit": "intensity", "part": "high", "factor": 0.7},
                             {"edit": "silhouette", "part": "low", "theta0": 40, "m1": 0.5, "alpha1": 0.9}])";
 
-EditedMatcap edited(const std::string& json) {
+EditedMatcap changed(const std::string& json) {
   return apply_edits(carpaint(), parse_edits(json, {}, "edits"));
 }
 
@@ -94,7 +94,7 @@ TEST(DecomposedOnGpu, EqualsTheEvaluator) {
 }
 
 TEST(DecomposedOnGpu, EqualsTheEvaluatorWithTurnedLightAndChangedMaterial) {
-  expect_between_neighbours(edited(kChanges));
+  expect_between_neighbours(changed(kChanges));
 }
 
 TEST(DecomposedOnGpu, EqualsTheEvaluatorWithTextures) {
@@ -113,7 +113,7 @@ TEST(DecomposedOnGpu, EqualsTheEvaluatorWithTextures) {
   }
   maps.roughness_scale = 0.1;
   expect_matches(unedited(carpaint()), maps);
-  expect_matches(edited(kChanges), maps);
+  expect_matches(changed(kChanges), maps);
 }
 
 // Figure 14: MatCaps by material, their main highlights brought to one place and turned together.
@@ -129,7 +129,7 @@ TEST(DecomposedOnGpu, SeveralByMaterialAlignedAndTurnedTogetherEqualTheEvaluator
   scene.materials.resize(2);
   const MatcapDecomposition lead =
       decompose(test::example_matcap("lead", 128), inscribed_disc(128, 128), {}, "lead");
-  scene.materials[0].appearance = std::make_shared<const DecomposedAppearance>(edited(together));
+  scene.materials[0].appearance = std::make_shared<const DecomposedAppearance>(changed(together));
   scene.materials[1].appearance =
       std::make_shared<const DecomposedAppearance>(apply_edits(lead, parse_edits(together, {}, "edits")));
   expect_between_neighbours(scene);

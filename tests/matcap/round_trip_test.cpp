@@ -102,14 +102,14 @@ double coverage(const Disc& disc, int x, int y) {
 
 // A sphere drawn on black: the steps of its edge must not turn with the light.
 TEST(RoundTrip, TheEdgeOfADrawnSphereComesBackButDoesNotTurn) {
-  constexpr int kSize = 192;
-  const Disc disc = inscribed_disc(kSize, kSize);
-  const Image clean = test::sphere_picture(kSize, [](const Vec3& n) -> Vec3 {
+  constexpr int kWidth = 192;
+  const Disc disc = inscribed_disc(kWidth, kWidth);
+  const Image clean = test::sphere_picture(kWidth, [](const Vec3& n) -> Vec3 {
     return {0.5 + 0.2 * n.x(), 0.5 - 0.2 * n.y(), 0.4 + 0.2 * n.x() * n.y()};
   });
   Image drawn = clean;
-  for (int y = 0; y < kSize; ++y) {
-    for (int x = 0; x < kSize; ++x)
+  for (int y = 0; y < kWidth; ++y) {
+    for (int x = 0; x < kWidth; ++x)
       drawn.set_rgb(x, y, clean.rgb(x, y) * static_cast<float>(coverage(disc, x, y)));
   }
   EXPECT_GT(round_trip(drawn, disc, {}), 50);
@@ -120,15 +120,15 @@ TEST(RoundTrip, TheEdgeOfADrawnSphereComesBackButDoesNotTurn) {
   ASSERT_FALSE(with.kept.empty());
   for (const KeptPixel& pixel : with.kept) {
     EXPECT_TRUE(
-        on_rim(disc, 2, static_cast<int>(pixel.index) % kSize, static_cast<int>(pixel.index) / kSize));
+        on_rim(disc, 2, static_cast<int>(pixel.index) % kWidth, static_cast<int>(pixel.index) / kWidth));
   }
   for (const Vec3& angles : {Vec3(kPi / 4, 0, 0), Vec3(0, kPi / 2, 0)}) {
     const std::vector<Edit> turn{Turn{angles}};
     const Image expected = bake(apply_edits(without, turn));
     const Image turned = bake(apply_edits(with, turn));
     float worst = 0;
-    for (int y = 0; y < kSize; ++y) {
-      for (int x = 0; x < kSize; ++x) {
+    for (int y = 0; y < kWidth; ++y) {
+      for (int x = 0; x < kWidth; ++x) {
         if (on_disc(disc, x, y))
           worst = std::max(worst, (turned.rgb(x, y) - expected.rgb(x, y)).cwiseAbs().maxCoeff());
       }

@@ -35,13 +35,6 @@ test::Difference compare(const Frame& a, const Frame& b, double tolerance) {
   return difference;
 }
 
-Picture orthographic(int size) {
-  Picture picture;
-  picture.width = picture.height = size;
-  picture.camera.kind = Camera::Kind::view_space;
-  return picture;
-}
-
 TEST(AmcOnGpu, EqualsTheEvaluatorInEverySwitch) {
   Picture picture{.width = 96, .height = 96};
   picture.camera.field_of_view = radians(70);
@@ -72,7 +65,7 @@ TEST(AmcOnGpu, OfASphereWithTheCapturesTangentsIsTheCapturedFrame) {
   const auto appearance = amc(test::analytic_table(128, 64, 1));
   for (const double turns : {0.0, 0.13, 0.25, 0.5, 0.71, 0.999}) {
     const Scene scene = test::scene_of(test::captured_hemisphere(2 * kPi * turns, 128, 256), appearance);
-    const Frame frame = test::render(scene, orthographic(64));
+    const Frame frame = test::render(scene, test::in_view_space(64));
     test::Difference difference;
     for (int y = 0; y < 64; ++y) {
       for (int x = 0; x < 64; ++x) {

@@ -14,13 +14,6 @@ std::shared_ptr<const MatCap> matcap() {
   return std::make_shared<const MatCap>(test::test_matcap());
 }
 
-Picture orthographic(int size) {
-  Picture picture;
-  picture.width = picture.height = size;
-  picture.camera.kind = Camera::Kind::view_space;
-  return picture;
-}
-
 // Half floats and the driver's 8-bit filter weights bound what the GPU can do.
 constexpr double kTolerance = 2e-3;
 
@@ -38,8 +31,9 @@ TEST(MatCapOnGpu, EqualsTheEvaluatorInEverySwitch) {
 TEST(MatCapOnGpu, OfAnOrthographicSphereIsThePictureItself) {
   const int size = 96;
   const Image image = test::test_matcap(size);
-  const Frame frame = test::render(
-      test::scene_of(test::sphere(512, 256), std::make_shared<const MatCap>(image)), orthographic(size));
+  const Frame frame =
+      test::render(test::scene_of(test::sphere(512, 256), std::make_shared<const MatCap>(image)),
+                   test::in_view_space(size));
   for (int y = 0; y < size; ++y) {
     for (int x = 0; x < size; ++x) {
       // The outermost pixels are replaced by the rim's trusted colour, and the mesh is a polygon there.
@@ -51,7 +45,7 @@ TEST(MatCapOnGpu, OfAnOrthographicSphereIsThePictureItself) {
 
 TEST(MatCapOnGpu, TurningTheObjectLeavesTheLightWhereItIs) {
   const Scene scene = test::scene_of(test::sphere(512, 256), matcap());
-  Picture picture = orthographic(64);
+  Picture picture = test::in_view_space(64);
   const Frame still = test::render(scene, picture);
   picture.rotation = rotation_xyz({0.3, 1.2, -0.7});
   const Frame turned = test::render(scene, picture);
@@ -122,15 +116,16 @@ TEST(MatCapOnGpu, SurfaceAgreesWithTheDefinitionsInCore) {
 TEST(MatCapOnGpu, OcclusionMultiplies) {
   Mesh mesh = test::sphere();
   mesh.occlusion.assign(mesh.positions.size(), 0.25f);
-  const Frame with = test::render(test::scene_of(mesh, matcap()), orthographic(32));
-  const Frame without = test::render(test::scene_of(mesh, matcap(), {.occlusion = false}), orthographic(32));
+  const Frame with = test::render(test::scene_of(mesh, matcap()), test::in_view_space(32));
+  const Frame without =
+      test::render(test::scene_of(mesh, matcap(), {.occlusion = false}), test::in_view_space(32));
   EXPECT_LT((with.colour.rgb(12, 12) - 0.25f * without.colour.rgb(12, 12)).norm(), 1e-5);
   EXPECT_FLOAT_EQ(static_cast<float>(surface_at(with, 12, 12)->occlusion), 0.25f);
 }
 
 TEST(MatCapOnGpu, TheBackOfAClothShowsItsTurnedNormalAndTheSameThreads) {
   const Scene scene = test::scene_of(test::plane(), matcap());
-  Picture picture = orthographic(16);
+  Picture picture = test::in_view_space(16);
   const auto front = surface_at(test::render(scene, picture), 8, 8);
   picture.rotation = rotation_xyz({kPi, 0, 0});
   const auto back = surface_at(test::render(scene, picture), 8, 8);
@@ -144,9 +139,9 @@ TEST(MatCapOnGpu, TheBackOfAClothShowsItsTurnedNormalAndTheSameThreads) {
 
 TEST(MatCapOnGpu, AMeshThatWindsTheOtherWayLooksTheSame) {
   Scene scene = test::scene_of(test::sphere(), matcap());
-  const Frame expected = test::render(scene, orthographic(32));
+  const Frame expected = test::render(scene, test::in_view_space(32));
   for (auto& triangle : scene.mesh.triangles) std::swap(triangle[1], triangle[2]);
-  const Frame frame = test::render(scene, orthographic(32));
+  const Frame frame = test::render(scene, test::in_view_space(32));
   EXPECT_LT((expected.colour.rgb(10, 9) - frame.colour.rgb(10, 9)).norm(), 1e-5);
 }
 

@@ -40,6 +40,14 @@ struct Picture {
   bool surfaces = true;
 };
 
+/// A square picture of a mesh whose coordinates are view space.
+inline Picture in_view_space(int size) {
+  Picture picture;
+  picture.width = picture.height = size;
+  picture.camera.kind = Camera::Kind::view_space;
+  return picture;
+}
+
 inline Frame render(const Scene& scene, const Picture& picture) {
   context();
   const std::vector<Mat3> rotations{picture.rotation};
