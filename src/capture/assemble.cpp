@@ -138,7 +138,7 @@ void put_in_order(std::vector<Sample>& samples) {
   if (!std::ranges::is_sorted(samples, {}, &Sample::angle)) std::ranges::sort(samples, {}, &Sample::angle);
 }
 
-/// Light, which is neither negative nor infinite: several at once.
+/// Of light, which is not negative: several at once.
 void to_floats(std::span<const Half> halves, float* floats) {
   // A half's exponent and fraction in a float's place are short of the difference of the biases.
   constexpr float kBias = std::bit_cast<float>((127U + 127 - 15) << 23);

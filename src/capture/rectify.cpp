@@ -110,7 +110,8 @@ RectifiedFrame rectify(const RectifyMap& map, const Frame& frame, const Vec2& ce
       const auto i = static_cast<std::size_t>(y * size + x);
       const Vec4f mean = frame.sum_light(std::span(points).first(seen)) / static_cast<float>(seen);
       for (int c = 0; c < 3; ++c)
-        result.rgb[i * 3 + static_cast<std::size_t>(c)] = static_cast<Half>(mean[c] * scale[c]);
+        result.rgb[i * 3 + static_cast<std::size_t>(c)] =
+            static_cast<Half>(std::max(0.0f, mean[c] * scale[c]));
       result.weight[i] = static_cast<std::uint8_t>(255 * static_cast<int>(seen) / (n * n));
       result.clipped[i] = static_cast<std::uint8_t>(255 * mean[3]);
     }

@@ -61,7 +61,7 @@ class RectifyMap {
 /// One slice as seen in one frame.
 struct RectifiedFrame {
   int size = 0;
-  std::vector<Half> rgb;              ///< light with the gain removed, 3 a texel, row 0 on top
+  std::vector<Half> rgb;              ///< light with the gain removed, not negative, 3 a texel, row 0 on top
   std::vector<std::uint8_t> weight;   ///< 255: the whole texel was seen; 0: nothing of it
   std::vector<std::uint8_t> clipped;  ///< 255: all of it was clipped
 };

@@ -102,6 +102,21 @@ TEST(CapturePhotographs, UnreadableExifIsAsGoodAsNone) {
   EXPECT_THAT(result.warnings, testing::Contains(testing::HasSubstr("the lens is unknown")));
 }
 
+TEST(CapturePhotographs, LightBelowZeroIsDark) {
+  // As from a raw converter that takes too much for black.
+  const Simulation s = test::small_simulation(24);
+  const TemporaryFolder folder;
+  for (int i = 0; i < s.frames; ++i) {
+    Image light = test::light_of(s.render(i));
+    for (float& v : light.data) v -= 0.12f;
+    write_image(folder / fmt::format("shot_{:03}.exr", i), light);
+  }
+  const CaptureResult result = build_capture({folder.path()}, test::small_options(s));
+  const auto brightest =
+      std::ranges::max(result.table.texels, {}, [](Half h) { return static_cast<float>(h); });
+  EXPECT_LT(static_cast<float>(brightest), 1.5f);
+}
+
 /// What is said of the simulation's pictures enlarged so that every pixel becomes kLarge x kLarge: in these
 /// the sphere is looked for at half the size.
 constexpr int kLarge = 4;
