@@ -134,7 +134,7 @@ constexpr int kTogether = 32;
 
 /// Sorts by angle. A turn ascends from wherever it starts: that needs no more than a rotation.
 void put_in_order(std::vector<Sample>& samples) {
-  std::ranges::rotate(samples, std::ranges::is_sorted_until(samples, {}, &Sample::angle));
+  std::rotate(samples.begin(), std::ranges::is_sorted_until(samples, {}, &Sample::angle), samples.end());
   if (!std::ranges::is_sorted(samples, {}, &Sample::angle)) std::ranges::sort(samples, {}, &Sample::angle);
 }
 
@@ -224,7 +224,7 @@ AssembledSlices assemble(const RectifiedStack& stack, const SurfaceMask& mask, d
     std::vector<float> light(static_cast<std::size_t>(count * kTogether * 3));
     std::vector<std::uint8_t> known(static_cast<std::size_t>(count * kTogether));
     for (int x = 0; x < size; x += kTogether) {
-      const auto first = static_cast<std::size_t>(y * size + x);
+      const auto first = pixel_index(x, y, size);
       const auto width = static_cast<std::size_t>(std::min(kTogether, size - x));
       all.collect(first, width, samples);
       std::ranges::fill(light, 0.0f);

@@ -70,6 +70,7 @@ RectifiedStack collect_stack(FrameSource& source, const FirstLook& look, const S
   result.preview_frame = indices.front();
   result.preview = preview_of(source.read(result.preview_frame));
   std::vector<Vec2> centres;
+  centres.reserve(indices.size());
   for (const int i : indices) centres.push_back(result.frames[static_cast<std::size_t>(i)].centre);
   const PixelRect sphere = map.region(centres, source.width(), source.height());
   std::vector<RectifiedFrame> frames(result.frames.size());

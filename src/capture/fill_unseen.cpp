@@ -52,7 +52,7 @@ void for_neighbours(int size, std::size_t index, const Body& body) {
   const int y = static_cast<int>(index) / size;
   for (int v = std::max(0, y - 1); v <= std::min(size - 1, y + 1); ++v) {
     for (int u = std::max(0, x - 1); u <= std::min(size - 1, x + 1); ++u) {
-      if (u != x || v != y) body(static_cast<std::size_t>(v * size + u), u != x && v != y ? 0.7f : 1.0f);
+      if (u != x || v != y) body(pixel_index(u, v, size), u != x && v != y ? 0.7f : 1.0f);
     }
   }
 }

@@ -75,7 +75,7 @@ Frame::Frame(Picture8 picture, const Response& response)
     }
   }
   std::ranges::transform(table_, quarter_.begin(), [](float light) {
-    return static_cast<std::uint16_t>(std::clamp(light, 0.0f, 1.0f) * (kWhite / 4) + 0.5f);
+    return static_cast<std::uint16_t>(std::lround(0.25f * kWhite * std::clamp(light, 0.0f, 1.0f)));
   });
 }
 
@@ -87,7 +87,7 @@ void Frame::add_grey_row(int x, int y, int factor, std::span<int> sums) const {
     for (std::size_t i = 0; i < sums.size(); ++i) {
       const int first = x + static_cast<int>(i) * factor;
       for (int u = first; u < first + factor; ++u)
-        sums[i] += static_cast<int>(std::clamp(grey(u, y), 0.0f, 1.0f) * kWhite + 0.5f);
+        sums[i] += static_cast<int>(std::lround(std::clamp(grey(u, y), 0.0f, 1.0f) * kWhite));
     }
     return;
   }

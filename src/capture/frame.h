@@ -71,9 +71,7 @@ class Frame {
  private:
   static constexpr int kClipped = 254;  // code from which on a channel counts as clipped
 
-  std::size_t offset(int x, int y) const {
-    return (static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x)) * 3;
-  }
+  std::size_t offset(int x, int y) const { return 3 * pixel_index(x, y, width_); }
 
   int width_ = 0;
   int height_ = 0;

@@ -82,8 +82,9 @@ Image mirror_ball_environment(const Frame& frame, const Camera& camera, const Sp
     for (int x = 0; x < width; ++x) {
       points.clear();
       for (int i = 0; i < n * n; ++i) {
+        const int row = i / n;
         const double longitude = 2 * kPi * ((x + (i % n + 0.5) / n) / width - 0.5);
-        const double latitude = kPi * (0.5 - (y + (i / n + 0.5) / n) / height);
+        const double latitude = kPi * (0.5 - (y + (row + 0.5) / n) / height);
         const Vec3 towards(std::cos(latitude) * std::sin(longitude), std::sin(latitude),
                            -std::cos(latitude) * std::cos(longitude));
         const Vec3 normal = mirror_normal(ball, towards);
@@ -93,7 +94,7 @@ Image mirror_ball_environment(const Frame& frame, const Camera& camera, const Sp
       }
       if (points.empty()) continue;
       map.set_rgb(x, y, scale / static_cast<float>(points.size()) * frame.sum_light(points).head<3>());
-      known[static_cast<std::size_t>(y * width + x)] = 1;
+      known[pixel_index(x, y, width)] = 1;
     }
   });
   fill_hidden(map, known);

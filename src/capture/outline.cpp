@@ -239,8 +239,7 @@ class Background {
         const Vec3 ray = camera_.ray(p);
         const double cosine = ray.dot(middle);
         if (cosine < ring) continue;
-        const auto i = static_cast<std::size_t>(y) * static_cast<std::size_t>(plate_.width) +
-                       static_cast<std::size_t>(x);
+        const auto i = pixel_index(x, y, plate_.width);
         const bool clear = cosine <= clear_of_all;
         if (clear && clear_[i] != 0) continue;
         clear_[i] = clear ? 1 : 0;

@@ -20,7 +20,7 @@ StillPoints still_points(const Scouting& scouting, int grey_width, int grey_heig
   for (int y = 2; y < grey_height - 2; y += 2) {
     for (int x = 2; x < grey_width - 2; x += 2) {
       if ((Vec2(x + 0.5, y + 0.5) - scouting.centre).norm() < scouting.radius + clearance) continue;
-      const auto i = static_cast<std::size_t>(y * grey_width + x);
+      const auto i = pixel_index(x, y, grey_width);
       if (static_cast<double>(scouting.activity[i]) > 3 * scouting.noise) continue;
       if (scouting.mean[i] < 40 || scouting.mean[i] > 235) continue;
       candidates.emplace_back(x * factor + factor / 2, y * factor + factor / 2);

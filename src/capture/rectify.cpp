@@ -30,8 +30,7 @@ RectifyMap::RectifyMap(const Camera& camera, const SphereView& mean, int size, T
   points_.resize(static_cast<std::size_t>(size) * static_cast<std::size_t>(size));
   parallel_for(fine, [&](int y) {
     for (int x = 0; x < fine; ++x) {
-      Sample& sample =
-          grid_[static_cast<std::size_t>(y) * static_cast<std::size_t>(fine) + static_cast<std::size_t>(x)];
+      Sample& sample = grid_[pixel_index(x, y, fine)];
       const Vec2 disc = disc_of_pixel(x, y, fine);
       sample = {};
       if (disc.norm() >= 1) continue;
@@ -55,7 +54,7 @@ RectifyMap::RectifyMap(const Camera& camera, const SphereView& mean, int size, T
   });
   parallel_for(size, [&](int y) {
     for (int x = 0; x < size; ++x) {
-      points_[static_cast<std::size_t>(y * size + x)] = point_of_disc(mean, disc_of_pixel(x, y, size), frame);
+      points_[pixel_index(x, y, size)] = point_of_disc(mean, disc_of_pixel(x, y, size), frame);
     }
   });
 }
@@ -96,8 +95,7 @@ RectifiedFrame rectify(const RectifyMap& map, const Frame& frame, const Vec2& ce
     for (int x = 0; x < size; ++x) {
       std::size_t seen = 0;
       for (int v = 0; v < n; ++v) {
-        const RectifyMap::Sample* row =
-            map.grid_.data() + static_cast<std::size_t>(y * n + v) * static_cast<std::size_t>(fine) + x * n;
+        const RectifyMap::Sample* row = map.grid_.data() + pixel_index(x * n, y * n + v, fine);
         for (int u = 0; u < n; ++u) {
           const RectifyMap::Sample& s = row[u];
           if (!s.seen) continue;
@@ -107,7 +105,7 @@ RectifiedFrame rectify(const RectifyMap& map, const Frame& frame, const Vec2& ce
         }
       }
       if (seen == 0) continue;
-      const auto i = static_cast<std::size_t>(y * size + x);
+      const auto i = pixel_index(x, y, size);
       const Vec4f mean = frame.sum_light(std::span(points).first(seen)) / static_cast<float>(seen);
       for (int c = 0; c < 3; ++c)
         result.rgb[i * 3 + static_cast<std::size_t>(c)] =

@@ -24,10 +24,7 @@ class RectifyMap {
   int size() const { return size_; }
   TableFrame frame() const { return frame_; }
   /// The texel's surface point for the mean sphere; `visible` is false where no frame shows it.
-  const SeenPoint& point(int x, int y) const {
-    return points_[static_cast<std::size_t>(y) * static_cast<std::size_t>(size_) +
-                   static_cast<std::size_t>(x)];
-  }
+  const SeenPoint& point(int x, int y) const { return points_[pixel_index(x, y, size_)]; }
   /// The rectangle, inside a picture of the size given, of all pixels that rectify() looks at in frames whose
   /// spheres are at `centres` (pixels, at least one).
   PixelRect region(std::span<const Vec2> centres, int width, int height) const;

@@ -149,7 +149,7 @@ Image mask_picture(const CaptureResult& result) {
   for (int y = 0; y < size; ++y) {
     for (int x = 0; x < size; ++x) {
       if (disc_of_pixel(x, y, size).norm() >= 1) continue;
-      const auto i = static_cast<std::size_t>(y * size + x);
+      const auto i = pixel_index(x, y, size);
       const float deviation = result.mask.size > 0 ? result.mask.deviation[i] : 0;
       const float grey = std::clamp(0.25f * std::exp(deviation), 0.0f, 1.0f);
       const bool masked = result.mask.size > 0 && result.mask.masked[i] != 0;

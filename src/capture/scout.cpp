@@ -68,7 +68,7 @@ void grey_picture(const Frame& frame, int factor, const GreyRegion& region, Grey
   for (int y = std::max(0, region.top); y < std::min(picture.height, region.bottom); ++y) {
     std::ranges::fill(sums, 0);
     for (int v = 0; v < factor; ++v) frame.add_grey_row(first * factor, y * factor + v, factor, sums);
-    std::uint8_t* codes = &picture.codes[static_cast<std::size_t>(y * picture.width + first)];
+    std::uint8_t* codes = &picture.codes[pixel_index(first, y, picture.width)];
     if (pixels > 1) {
       for (int& sum : sums) sum /= pixels;
     }
@@ -190,7 +190,7 @@ std::vector<Blob> active_blobs(const Scouting& s, int width, int height, double 
   cv::Mat mask(height, width, CV_8U);
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {
-      mask.at<std::uint8_t>(y, x) = s.activity[static_cast<std::size_t>(y * width + x)] > threshold ? 255 : 0;
+      mask.at<std::uint8_t>(y, x) = s.activity[pixel_index(x, y, width)] > threshold ? 255 : 0;
     }
   }
   const cv::Mat disc = cv::getStructuringElement(cv::MORPH_ELLIPSE, {5, 5});
@@ -211,8 +211,8 @@ std::vector<Blob> active_blobs(const Scouting& s, int width, int height, double 
     std::vector<Vec2> outline;
     for (int i = 0; i < 360; ++i) {
       const Vec2 out(std::cos(radians(i)), std::sin(radians(i)));
-      for (double r = std::hypot(w, h) / 2 + 1; r > 2; r -= 0.5) {
-        const Vec2 p = middle + r * out;
+      for (int halves = static_cast<int>(std::hypot(w, h)) + 2; halves > 4; --halves) {
+        const Vec2 p = middle + 0.5 * halves * out;
         const int x = static_cast<int>(std::floor(p.x()));
         const int y = static_cast<int>(std::floor(p.y()));
         if (x < 0 || y < 0 || x >= width || y >= height || labels.at<int>(y, x) != label) continue;

@@ -17,9 +17,7 @@ struct GreyPicture {
   int height = 0;
   std::vector<std::uint8_t> codes;
 
-  std::uint8_t at(int x, int y) const {
-    return codes[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)];
-  }
+  std::uint8_t at(int x, int y) const { return codes[pixel_index(x, y, width)]; }
   /// Bilinear, clamped; pixel centres at +0.5.
   double sample(double x, double y) const;
 };

@@ -39,10 +39,7 @@ cv::Mat quiet_pixels(const FirstLook& look, double radius) {
 /// of plain cloth goes over into what is around it, a stand ends. Median over the border.
 std::vector<double> border_contrast(const FirstLook& look, const cv::Mat& labels, int count, double radius) {
   std::vector<std::vector<float>> steps(static_cast<std::size_t>(count));
-  const auto mean = [&](int x, int y) {
-    return look.scouting.mean[static_cast<std::size_t>(y) * static_cast<std::size_t>(labels.cols) +
-                              static_cast<std::size_t>(x)];
-  };
+  const auto mean = [&](int x, int y) { return look.scouting.mean[pixel_index(x, y, labels.cols)]; };
   for (int y = 4; y + 4 < labels.rows; ++y) {
     for (int x = 4; x + 4 < labels.cols; ++x) {
       const int label = labels.at<int>(y, x);
@@ -55,6 +52,7 @@ std::vector<double> border_contrast(const FirstLook& look, const cv::Mat& labels
     }
   }
   std::vector<double> result;
+  result.reserve(steps.size());
   for (const std::vector<float>& values : steps) result.push_back(values.empty() ? 0 : median(values));
   return result;
 }

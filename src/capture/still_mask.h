@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "sateen/core/image.h"
+
 namespace sateen {
 
 /// Pixels that do not show the sphere though they lie inside its outline: a stand in front.
@@ -16,9 +18,7 @@ struct StillMask {
   bool hides(float x, float y) const {
     const auto u = static_cast<int>(x) / factor;
     const auto v = static_cast<int>(y) / factor;
-    return u >= 0 && v >= 0 && u < width && v < height &&
-           still[static_cast<std::size_t>(v) * static_cast<std::size_t>(width) +
-                 static_cast<std::size_t>(u)] != 0;
+    return u >= 0 && v >= 0 && u < width && v < height && still[pixel_index(u, v, width)] != 0;
   }
 };
 

@@ -190,8 +190,7 @@ void find_deviations(const RectifiedStack& stack, const SurfaceMask& already, De
           const Columns deviation = (light[f].light[c] - expected).max(-1.2f).min(1.2f);
           for (std::size_t column = 0; column < kColumns; ++column) {
             const auto u = static_cast<Eigen::Index>(column);
-            const auto i = static_cast<std::size_t>(row) * static_cast<std::size_t>(stack.size) +
-                           static_cast<std::size_t>(first) + column;
+            const auto i = pixel_index(first, row, stack.size) + column;
             if (first + static_cast<int>(column) >= stack.size) continue;
             result[(f * texels + i) * 3 + c] = known[column] && expected[u] >= darkest
                                                    ? static_cast<std::int8_t>(std::lround(deviation[u] * 100))
@@ -225,7 +224,7 @@ std::vector<float> body_deviation(const RectifiedStack& stack, const Deviations&
     const auto below = static_cast<int>(std::lround(p.y()));
     for (int y = std::max(0, below - 2); y < std::min(fine, below + 2); ++y) {
       for (int x = std::max(0, right - 2); x < std::min(fine, right + 2); ++x) {
-        const auto slot = static_cast<std::size_t>(y * fine + x);
+        const auto slot = pixel_index(x, y, fine);
         const auto distance = static_cast<float>((p - Vec2(x + 0.5, y + 0.5)).squaredNorm());
         if (distance >= nearest[slot]) continue;
         nearest[slot] = distance;
@@ -265,7 +264,7 @@ std::vector<float> body_deviation(const RectifiedStack& stack, const Deviations&
         const float agreed = quantile(2) < 0 ? std::min(0.0f, quantile(3)) : std::max(0.0f, quantile(1));
         if (std::abs(agreed) > std::abs(strongest)) strongest = agreed;
       }
-      result[static_cast<std::size_t>(y * size + x)] = strongest;
+      result[pixel_index(x, y, size)] = strongest;
     }
   });
   return result;
@@ -275,7 +274,7 @@ std::size_t body_pixel(const Vec2& body, int size) {
   const Vec2 p = pixel_of_disc(body, size);
   const int x = std::clamp(static_cast<int>(p.x()), 0, size - 1);
   const int y = std::clamp(static_cast<int>(p.y()), 0, size - 1);
-  return static_cast<std::size_t>(y * size + x);
+  return pixel_index(x, y, size);
 }
 
 /// Derives what follows from `masked`.
@@ -290,7 +289,7 @@ void finish(SurfaceMask& mask) {
     for (int x = 0; x < mask.size; ++x) {
       if (disc_of_pixel(x, y, mask.size).norm() > 0.98) continue;
       ++inside;
-      masked += mask.masked[static_cast<std::size_t>(y * mask.size + x)];
+      masked += mask.masked[pixel_index(x, y, mask.size)];
     }
   }
   mask.share = masked / inside;
@@ -322,9 +321,7 @@ SurfaceMask blemishes_of(const RectifiedStack& stack, const Deviations& deviatio
   for (int y = 0; y < mask.size; ++y) {
     for (int x = 0; x < mask.size; ++x) {
       weak.at<std::uint8_t>(y, x) =
-          static_cast<double>(std::abs(mask.deviation[static_cast<std::size_t>(y * mask.size + x)])) > low
-              ? 1
-              : 0;
+          static_cast<double>(std::abs(mask.deviation[pixel_index(x, y, mask.size)])) > low ? 1 : 0;
     }
   }
   cv::Mat labels;
@@ -332,7 +329,7 @@ SurfaceMask blemishes_of(const RectifiedStack& stack, const Deviations& deviatio
   std::vector<int> core(static_cast<std::size_t>(count), 0);
   for (int y = 0; y < mask.size; ++y) {
     for (int x = 0; x < mask.size; ++x) {
-      if (static_cast<double>(std::abs(mask.deviation[static_cast<std::size_t>(y * mask.size + x)])) > high) {
+      if (static_cast<double>(std::abs(mask.deviation[pixel_index(x, y, mask.size)])) > high) {
         ++core[static_cast<std::size_t>(labels.at<int>(y, x))];
       }
     }
@@ -357,7 +354,7 @@ SurfaceMask blemishes_of(const RectifiedStack& stack, const Deviations& deviatio
 SurfaceMask find_blemishes(const RectifiedStack& stack, const SurfaceMask& already) {
   Deviations deviations;
   find_deviations(stack, already, deviations);
-  const SurfaceMask found = blemishes_of(stack, deviations);
+  SurfaceMask found = blemishes_of(stack, deviations);
   if (found.share == 0) return found;
   // Once more without what was found, so that it no longer pulls the medians.
   find_deviations(stack, united(already, found), deviations);
@@ -382,7 +379,7 @@ SurfaceMask mask_from_painting(const Image& painting, const Camera& camera, cons
       const Vec2 p = camera.project(sphere.centre + normal);
       if (p.x() < 0 || p.y() < 0 || p.x() >= painting.width || p.y() >= painting.height) continue;
       const Vec3f paint = painting.rgb(static_cast<int>(p.x()), static_cast<int>(p.y()));
-      mask.masked[static_cast<std::size_t>(y * size + x)] = paint.maxCoeff() > 0.2f ? 1 : 0;
+      mask.masked[pixel_index(x, y, size)] = paint.maxCoeff() > 0.2f ? 1 : 0;
     }
   }
   finish(mask);
@@ -395,7 +392,7 @@ SurfaceMask united(const SurfaceMask& a, const SurfaceMask& b) {
   SurfaceMask mask = a;
   for (int y = 0; y < a.size; ++y) {
     for (int x = 0; x < a.size; ++x) {
-      if (b.masks(disc_of_pixel(x, y, a.size))) mask.masked[static_cast<std::size_t>(y * a.size + x)] = 1;
+      if (b.masks(disc_of_pixel(x, y, a.size))) mask.masked[pixel_index(x, y, a.size)] = 1;
     }
   }
   finish(mask);
@@ -410,7 +407,7 @@ bool mask_direction(const SurfaceMask& mask, double& direction) {
   for (int y = 0; y < mask.size; ++y) {
     for (int x = 0; x < mask.size; ++x) {
       const Vec2 disc = disc_of_pixel(x, y, mask.size);
-      if (mask.masked[static_cast<std::size_t>(y * mask.size + x)] == 0 || disc.norm() < 0.05) continue;
+      if (mask.masked[pixel_index(x, y, mask.size)] == 0 || disc.norm() < 0.05) continue;
       sum += disc.normalized();
       ++count;
     }

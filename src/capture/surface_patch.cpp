@@ -29,7 +29,7 @@ float light_at(const GreyPicture& picture, const Vec2f& pixel) {
   const int y0 = static_cast<int>(y);
   const float fx = x - static_cast<float>(x0);
   const float fy = y - static_cast<float>(y0);
-  const std::uint8_t* p = &picture.codes[static_cast<std::size_t>(y0 * picture.width + x0)];
+  const std::uint8_t* p = &picture.codes[pixel_index(x0, y0, picture.width)];
   const std::uint8_t* q = p + picture.width;
   const float top = kLight[p[0]] + fx * (kLight[p[1]] - kLight[p[0]]);
   const float bottom = kLight[q[0]] + fx * (kLight[q[1]] - kLight[q[0]]);

@@ -58,7 +58,7 @@ Vec3 axis_of_neighbours(const std::vector<cv::Mat>& images, const PolarPictures&
   }
   if (pairs.size() < 6) return Vec3::UnitZ();
   std::ranges::sort(wanted);
-  wanted.erase(std::ranges::unique(wanted).begin(), wanted.end());
+  wanted.erase(std::unique(wanted.begin(), wanted.end()), wanted.end());
   const PatchNormals some(images[0].cols, 2);
   const PatchNormals few(images[0].cols, 4);
   const std::vector<cv::Mat> soft = smoothed(images, wanted, images[0].cols / 80.0);

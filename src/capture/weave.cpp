@@ -38,7 +38,7 @@ class Middle {
     for (Eigen::Index i = 0; i < count; ++i) {
       const auto x = static_cast<int>(i % width_) + corner_;
       const auto y = static_cast<int>(i / width_) + corner_;
-      const Vec3& normal = stack.points[static_cast<std::size_t>(y * stack.size + x)].normal;
+      const Vec3& normal = stack.points[pixel_index(x, y, stack.size)].normal;
       const Vec2 body = body_point(axes, normal, direction_of(0));
       terms.row(i) = cubic(body).transpose();
       texels.row(i) << x, y;
@@ -78,7 +78,7 @@ class Middle {
           const int x = static_cast<int>(at.x());
           const int y = static_cast<int>(at.y());
           if (at.x() < 0 || at.y() < 0 || x + 1 >= size || y + 1 >= size) continue;
-          const auto i = static_cast<std::size_t>(y * size + x);
+          const auto i = pixel_index(x, y, size);
           const std::size_t below = i + static_cast<std::size_t>(size);
           const std::vector<std::uint8_t>& weight = stack_.frames[f].weight;
           if (weight[i] == 0 || weight[i + 1] == 0 || weight[below] == 0 || weight[below + 1] == 0) continue;

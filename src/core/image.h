@@ -10,6 +10,11 @@
 
 namespace sateen {
 
+/// Where pixel (x, y) of a picture stands, counted row by row.
+inline std::size_t pixel_index(int x, int y, int width) {
+  return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
+}
+
 /// A picture in memory: linear, scene-referred light (Rec. 709 primaries) or plain data (normals, roughness),
 /// as floats. io/ converts from and to what files hold; nothing in memory is sRGB unless its name says so.
 ///
@@ -26,8 +31,7 @@ struct Image {
 
   bool empty() const { return data.empty(); }
   std::size_t index(int x, int y) const {
-    return (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)) *
-           static_cast<std::size_t>(channels);
+    return pixel_index(x, y, width) * static_cast<std::size_t>(channels);
   }
   float& at(int x, int y, int c) { return data[index(x, y) + static_cast<std::size_t>(c)]; }
   float at(int x, int y, int c) const { return data[index(x, y) + static_cast<std::size_t>(c)]; }

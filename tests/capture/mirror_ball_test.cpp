@@ -41,7 +41,8 @@ void write_ball(const Simulation& s, const SphereView& ball, const std::filesyst
     for (int x = 0; x < light.width; ++x) {
       Vec3 sum(0, 0, 0);
       for (int i = 0; i < 9; ++i) {
-        const Vec2 p(x + (i % 3 + 0.5) / 3, y + (i / 3 + 0.5) / 3);
+        const int row = i / 3;
+        const Vec2 p(x + (i % 3 + 0.5) / 3, y + (row + 0.5) / 3);
         Vec3 n;
         if (!normal_at_pixel(camera, ball, p, n)) {
           sum += light.rgb(x, y).cast<double>() / 9;

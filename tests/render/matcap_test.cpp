@@ -159,7 +159,8 @@ TEST(MatCap, BackgroundOutsideTheDiscIsNeverSeen) {
     }
   }
   const MatCap matcap(image);
-  for (double angle = 0; angle < 6.3; angle += 0.01) {
+  for (int i = 0; i < 630; ++i) {
+    const double angle = 0.01 * i;
     EXPECT_LT((matcap.lookup({std::cos(angle), std::sin(angle)}) - Vec3::Constant(0.5)).norm(), 1e-6);
   }
 }
