@@ -21,4 +21,8 @@ void limit_threads(int threads) {
   }
 }
 
+int thread_limit() {
+  return static_cast<int>(tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism));
+}
+
 }  // namespace sateen

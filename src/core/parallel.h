@@ -12,4 +12,7 @@ void parallel_for(int count, const std::function<void(int)>& body);
 /// Bounds the threads of every later parallel_for in this process; 0 means all processors.
 void limit_threads(int threads);
 
+/// That many.
+int thread_limit();
+
 }  // namespace sateen

@@ -14,6 +14,7 @@
 #include <zstd.h>
 
 #include "sateen/core/error.h"
+#include "sateen/core/parallel.h"
 #include "sateen/io/file.h"
 #include "sateen/io/ktx2_format.h"
 
@@ -227,9 +228,15 @@ std::vector<std::byte> packed_metadata(std::map<std::string, std::string> metada
 }
 
 std::vector<std::byte> deflate(const fs::path& path, std::span<const std::byte> level, int zstd_level) {
+  const std::unique_ptr<ZSTD_CCtx, decltype(&ZSTD_freeCCtx)> context(ZSTD_createCCtx(), ZSTD_freeCCtx);
+  ZSTD_CCtx_setParameter(context.get(), ZSTD_c_compressionLevel, zstd_level);
+  // Jobs of a megabyte, whatever the number of threads, so that the file is always the same. A library built
+  // without threads refuses them and does without.
+  ZSTD_CCtx_setParameter(context.get(), ZSTD_c_nbWorkers, thread_limit());
+  ZSTD_CCtx_setParameter(context.get(), ZSTD_c_jobSize, 1 << 20);
   std::vector<std::byte> packed(ZSTD_compressBound(level.size()));
   const std::size_t bytes =
-      ZSTD_compress(packed.data(), packed.size(), level.data(), level.size(), zstd_level);
+      ZSTD_compress2(context.get(), packed.data(), packed.size(), level.data(), level.size());
   if (ZSTD_isError(bytes) != 0) {
     throw Error(fmt::format("{}: cannot be compressed: {}", path.string(), ZSTD_getErrorName(bytes)));
   }
