@@ -56,6 +56,21 @@ TEST_F(RenderCli, DrawsAPictureAndSaysNothing) {
   EXPECT_LT((picture.rgb(8, 8).cast<double>() - expected).norm(), 0.01);
 }
 
+TEST_F(RenderCli, AnotherMaterialIsDrawnToTheRight) {
+  const auto picture = [&](const std::string& materials) {
+    const ProgramResult result = render("cloth.obj", materials + " -o " + at("out.exr"));
+    EXPECT_EQ(result.exit_code, 0) << result.output;
+    return read_image(folder / "out.exr");
+  };
+  const Image left = picture("--material " + at("silk.ktx2"));
+  const Image right = picture("--material " + at("clay.exr"));
+  const Image both = picture("--material " + at("silk.ktx2") + " --compare " + at("clay.exr"));
+  ASSERT_EQ(both.width, 32);
+  ASSERT_EQ(both.height, 16);
+  EXPECT_EQ(cropped(both, {0, 0, 16, 16}).data, left.data);
+  EXPECT_EQ(cropped(both, {16, 0, 16, 16}).data, right.data);
+}
+
 TEST_F(RenderCli, TurningTheTangentsSwapsWarpAndWeft) {
   ASSERT_EQ(
       render("cloth.obj", "--material " + at("silk.ktx2") + " -o " + at("out.exr") + " --tangent-angle 45")
