@@ -129,12 +129,4 @@ Picture8 Frame::take_codes() {
   return {std::exchange(width_, 0), std::exchange(height_, 0), std::move(codes_)};
 }
 
-Image Frame::crop(int x0, int y0, int width, int height) const {
-  Image image(width, height, 3);
-  for (int y = 0; y < height; ++y) {
-    for (int x = 0; x < width; ++x) image.set_rgb(x, y, rgb(x0 + x, y0 + y));
-  }
-  return image;
-}
-
 }  // namespace sateen

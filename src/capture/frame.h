@@ -62,9 +62,6 @@ class Frame {
   void add_grey_row(int x, int y, int factor, std::span<int> sums) const;
   static constexpr int kWhite = 65532;
 
-  /// The picture's rectangle as light with 3 channels.
-  Image crop(int x, int y, int width, int height) const;
-
   /// Takes the code values out, for their memory's sake; the frame is empty then.
   Picture8 take_codes();
 
@@ -77,9 +74,8 @@ class Frame {
   int height_ = 0;
   std::vector<std::uint8_t> codes_;
   std::array<float, 256> table_{};
-  std::array<std::array<Vec4f, 256>, 3>
-      channel_{};                             // table_ as one channel of light_at's, and whether it clips
-  std::array<std::uint16_t, 256> quarter_{};  // table_ in quarters of kWhite
+  std::array<std::array<Vec4f, 256>, 3> channel_{};  // table_ as one channel of sum_light's; does it clip
+  std::array<std::uint16_t, 256> quarter_{};         // table_ in quarters of kWhite
   Image light_;
   float clip_ = 1;
 };

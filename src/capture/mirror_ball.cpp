@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "sateen/core/parallel.h"
+#include "sateen/light/environment.h"
 
 namespace sateen {
 
@@ -28,8 +29,7 @@ namespace {
 /// made as smooth as what surrounds them (Laplace's equation, by Gauss-Seidel with over-relaxation).
 void fill_hidden(Image& map, std::vector<std::uint8_t>& known) {
   const auto at = [&](int x, int y) {
-    return static_cast<std::size_t>(std::clamp(y, 0, map.height - 1)) * static_cast<std::size_t>(map.width) +
-           static_cast<std::size_t>((x + map.width) % map.width);
+    return pixel_index((x + map.width) % map.width, std::clamp(y, 0, map.height - 1), map.width);
   };
   const auto colour = [&](std::size_t i) { return Eigen::Map<Vec3f>(&map.data[3 * i]); };
   std::vector<std::size_t> hidden;
@@ -83,11 +83,9 @@ Image mirror_ball_environment(const Frame& frame, const Camera& camera, const Sp
       points.clear();
       for (int i = 0; i < n * n; ++i) {
         const int row = i / n;
-        const double longitude = 2 * kPi * ((x + (i % n + 0.5) / n) / width - 0.5);
-        const double latitude = kPi * (0.5 - (y + (row + 0.5) / n) / height);
-        const Vec3 towards(std::cos(latitude) * std::sin(longitude), std::sin(latitude),
-                           -std::cos(latitude) * std::cos(longitude));
-        const Vec3 normal = mirror_normal(ball, towards);
+        const Vec2 texel(x + (i % n + 0.5) / n, y + (row + 0.5) / n);
+        const Vec3 normal =
+            mirror_normal(ball, environment_direction({texel.x() / width, texel.y() / height}));
         const double cosine = normal.dot(-(ball.centre + normal).normalized());
         if (cosine <= 0 || std::sqrt(1 - std::min(1.0, cosine * cosine)) > farthest) continue;
         points.emplace_back(camera.project(ball.centre + normal).cast<float>());

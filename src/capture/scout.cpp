@@ -14,20 +14,6 @@
 
 namespace sateen {
 
-double GreyPicture::sample(double x, double y) const {
-  const double cx = std::clamp(x - 0.5, 0.0, width - 1.0);
-  const double cy = std::clamp(y - 0.5, 0.0, height - 1.0);
-  const int x0 = static_cast<int>(cx);
-  const int y0 = static_cast<int>(cy);
-  const int x1 = std::min(x0 + 1, width - 1);
-  const int y1 = std::min(y0 + 1, height - 1);
-  const double fx = cx - x0;
-  const double fy = cy - y0;
-  const double top = at(x0, y0) + fx * (at(x1, y0) - at(x0, y0));
-  const double bottom = at(x0, y1) + fx * (at(x1, y1) - at(x0, y1));
-  return top + fy * (bottom - top);
-}
-
 int grey_factor(int width, int height) {
   return std::max(1, (std::max(width, height) + 1279) / 1280);
 }

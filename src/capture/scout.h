@@ -18,8 +18,6 @@ struct GreyPicture {
   std::vector<std::uint8_t> codes;
 
   std::uint8_t at(int x, int y) const { return codes[pixel_index(x, y, width)]; }
-  /// Bilinear, clamped; pixel centres at +0.5.
-  double sample(double x, double y) const;
 };
 
 int grey_factor(int width, int height);

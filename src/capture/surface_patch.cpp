@@ -40,7 +40,7 @@ float light_at(const GreyPicture& picture, const Vec2f& pixel) {
 
 PatchMap::PatchMap(const Camera& camera, const SphereView& mean, const Mat3& axes, int size, StillMask still)
     : size_(size), centre_(mean.centre_pixel(camera)), still_(std::move(still)) {
-  still_.factor = 1;
+  still_.factor = 1;  // places are in grey pixels, as the mask is
   const double radius = mean.radius_pixel(camera);
   const Mat3 to_view = axes.transpose();
   const SphereView right = sphere_at(camera, centre_ + Vec2(1, 0), radius);
