@@ -22,27 +22,27 @@ struct AmcBuildArguments {
   std::filesystem::path output;
   int slices = 128;
   std::string symmetry = "auto";
-  double threshold = kDefaultSymmetryThreshold;
+  double threshold = amc::kDefaultSymmetryThreshold;
   std::string encoding = "auto";
   bool json = false;
 };
 
-AmcEncoding chosen_encoding(const std::string& name, bool floating) {
-  if (name == "auto") return floating ? AmcEncoding::half : AmcEncoding::srgb8;
-  return name == "half" ? AmcEncoding::half : AmcEncoding::srgb8;
+amc::AmcEncoding chosen_encoding(const std::string& name, bool floating) {
+  if (name == "auto") return floating ? amc::AmcEncoding::half : amc::AmcEncoding::srgb8;
+  return name == "half" ? amc::AmcEncoding::half : amc::AmcEncoding::srgb8;
 }
 
 void run(const AmcBuildArguments& arguments) {
-  const LoadedFrames loaded = load(arguments.frames);
-  SymmetryReport report = analyse_symmetry(loaded.frames, arguments.threshold);
-  BuildAmcOptions options;
+  const amc::LoadedFrames loaded = load(arguments.frames);
+  amc::SymmetryReport report = amc::analyse_symmetry(loaded.frames, arguments.threshold);
+  amc::BuildAmcOptions options;
   options.slices = arguments.slices;
   options.encoding = chosen_encoding(arguments.encoding, loaded.floating);
   if (arguments.symmetry != "auto") {
     options.symmetry = std::stoi(arguments.symmetry);
-    report.noise_removed = noise_removed_by(loaded.frames, *options.symmetry, report.peak);
+    report.noise_removed = amc::noise_removed_by(loaded.frames, *options.symmetry, report.peak);
   }
-  AmcTable table = build_amc(loaded.frames, report, options);
+  amc::AmcTable table = amc::build_amc(loaded.frames, report, options);
   table.provenance = {{"program", "sateen " SATEEN_VERSION},
                       {"frames", std::to_string(loaded.frames.size())},
                       {"skipped_frames", std::to_string(loaded.skipped)},
@@ -50,10 +50,10 @@ void run(const AmcBuildArguments& arguments) {
                       {"direction", arguments.frames.direction},
                       {"symmetry_threshold_db", fmt::format("{}", report.threshold)},
                       {"noise_removed", fmt::format("{:.5f}", report.noise_removed)}};
-  for (const Similarity& s : report.similarities) {
+  for (const amc::Similarity& s : report.similarities) {
     if (s.turns > 1) table.provenance[fmt::format("psnr_r{}_db", s.turns)] = fmt::format("{:.2f}", s.psnr);
   }
-  write_amc(arguments.output, table);
+  amc::write_amc(arguments.output, table);
   if (arguments.json) {
     nlohmann::json description = to_json(report);
     description["symmetry"] = table.symmetry;

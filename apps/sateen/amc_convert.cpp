@@ -21,12 +21,12 @@ void add_amc_convert(CLI::App& parent) {
   command->add_option("--encoding", arguments->encoding, "Texels of the output")
       ->check(CLI::IsMember({"keep", "srgb8", "half"}));
   command->callback([arguments] {
-    AmcTable table = read_amc(arguments->input);
+    amc::AmcTable table = amc::read_amc(arguments->input);
     if (arguments->encoding != "keep") {
-      table.encoding = arguments->encoding == "half" ? AmcEncoding::half : AmcEncoding::srgb8;
-      quantise(table);
+      table.encoding = arguments->encoding == "half" ? amc::AmcEncoding::half : amc::AmcEncoding::srgb8;
+      amc::quantise(table);
     }
-    write_amc(arguments->output, table);
+    amc::write_amc(arguments->output, table);
   });
 }
 

@@ -22,20 +22,24 @@ std::uintmax_t bytes_on_disk(const fs::path& path) {
 }
 
 nlohmann::json describe(const fs::path& path) {
-  const AmcTable table = read_amc(path);
+  const amc::AmcTable table = amc::read_amc(path);
   float brightest = 0;
   for (int f = 0; f < table.slices; ++f) {
     for (int y = 0; y < table.size; ++y) {
       for (int x = 0; x < table.size; ++x) brightest = std::max(brightest, table.texel(x, y, f).maxCoeff());
     }
   }
-  return {
-      {"file", path.string()},         {"size", table.size},
-      {"slices", table.slices},        {"symmetry", table.symmetry},
-      {"isotropic", table.isotropic},  {"encoding", table.encoding == AmcEncoding::srgb8 ? "srgb8" : "half"},
-      {"bytes", bytes_on_disk(path)},  {"texel_bytes", encoded_texels(table).size()},
-      {"version", kAmcFileVersion},    {"maximum", brightest},
-      {"provenance", table.provenance}};
+  return {{"file", path.string()},
+          {"size", table.size},
+          {"slices", table.slices},
+          {"symmetry", table.symmetry},
+          {"isotropic", table.isotropic},
+          {"encoding", table.encoding == amc::AmcEncoding::srgb8 ? "srgb8" : "half"},
+          {"bytes", bytes_on_disk(path)},
+          {"texel_bytes", amc::encoded_texels(table).size()},
+          {"version", amc::kAmcFileVersion},
+          {"maximum", brightest},
+          {"provenance", table.provenance}};
 }
 
 std::string as_text(const nlohmann::json& info) {

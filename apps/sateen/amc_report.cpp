@@ -24,8 +24,8 @@ void add_frame_options(CLI::App& command, FrameArguments& arguments) {
                    "Leave out frames that cannot be read instead of failing");
 }
 
-LoadedFrames load(const FrameArguments& arguments) {
-  LoadFramesOptions options;
+amc::LoadedFrames load(const FrameArguments& arguments) {
+  amc::LoadFramesOptions options;
   options.size = arguments.size;
   options.first_angle = wrap(arguments.first_angle / 360);
   options.clockwise = arguments.direction == "cw";
@@ -34,12 +34,12 @@ LoadedFrames load(const FrameArguments& arguments) {
   options.skip_bad = arguments.skip_bad;
   options.on_skipped = [](const std::string& why) { warn("left out " + why); };
   options.progress = progress_bar("Reading frames");
-  return load_frames(expand_inputs(arguments.inputs, image_extensions()), options);
+  return amc::load_frames(io::expand_inputs(arguments.inputs, io::image_extensions()), options);
 }
 
-nlohmann::json to_json(const SymmetryReport& report) {
+nlohmann::json to_json(const amc::SymmetryReport& report) {
   nlohmann::json similarities = nlohmann::json::array();
-  for (const Similarity& s : report.similarities) {
+  for (const amc::Similarity& s : report.similarities) {
     similarities.push_back({{"symmetry", s.turns}, {"rmse", s.rmse}, {"psnr", s.psnr}});
   }
   return {{"similarities", similarities},

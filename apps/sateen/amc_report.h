@@ -23,8 +23,8 @@ struct FrameArguments {
 };
 
 void add_frame_options(CLI::App& command, FrameArguments& arguments);
-LoadedFrames load(const FrameArguments& arguments);
+amc::LoadedFrames load(const FrameArguments& arguments);
 
-nlohmann::json to_json(const SymmetryReport& report);
+nlohmann::json to_json(const amc::SymmetryReport& report);
 
 }  // namespace sateen::cli

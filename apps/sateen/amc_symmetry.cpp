@@ -10,13 +10,13 @@ namespace {
 
 struct AmcSymmetryArguments {
   FrameArguments frames;
-  double threshold = kDefaultSymmetryThreshold;
+  double threshold = amc::kDefaultSymmetryThreshold;
   bool json = false;
 };
 
-std::string as_text(const SymmetryReport& report) {
+std::string as_text(const amc::SymmetryReport& report) {
   std::string text;
-  for (const Similarity& s : report.similarities) {
+  for (const amc::Similarity& s : report.similarities) {
     if (s.turns == 1) continue;
     text += fmt::format("turned by 1/{}: {:5.1f} dB  (rmse {:.4f} of the peak){}\n", s.turns, s.psnr, s.rmse,
                         s.psnr >= report.threshold ? "  alike" : "");
@@ -39,7 +39,8 @@ void add_amc_symmetry(CLI::App& parent) {
   command->add_option("--threshold", arguments->threshold, "PSNR in dB from which a turn counts as alike");
   command->add_flag("--json", arguments->json, "Print the report as JSON");
   command->callback([arguments] {
-    const SymmetryReport report = analyse_symmetry(load(arguments->frames).frames, arguments->threshold);
+    const amc::SymmetryReport report =
+        amc::analyse_symmetry(load(arguments->frames).frames, arguments->threshold);
     print(arguments->json ? to_json(report).dump(2) + "\n" : as_text(report));
   });
 }

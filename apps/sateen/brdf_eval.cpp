@@ -31,8 +31,8 @@ void add_brdf_eval(CLI::App& parent) {
   command->add_option("-o,--output", options->output, "JSON list of [r, g, b]: the BRDF without the cosine")
       ->required();
   command->callback([options] {
-    const BrdfFunction brdf = read_brdf(options->brdf.model, options->brdf.parameters);
-    const std::vector<DirectionPair> pairs = read_direction_pairs(options->directions);
+    const brdf::BrdfFunction brdf = brdf::read_brdf(options->brdf.model, options->brdf.parameters);
+    const std::vector<brdf::DirectionPair> pairs = brdf::read_direction_pairs(options->directions);
     std::vector<Vec3> values(pairs.size());
     const Progress progress = progress_bar("Evaluating");
     constexpr int kChunk = 64;
@@ -42,7 +42,7 @@ void add_brdf_eval(CLI::App& parent) {
       for (std::size_t i = static_cast<std::size_t>(chunk) * kChunk; i < end; ++i) values[i] = brdf(pairs[i]);
       report(progress, static_cast<double>(chunk + 1) / chunks);
     });
-    write_values(options->output, values);
+    brdf::write_values(options->output, values);
   });
 }
 

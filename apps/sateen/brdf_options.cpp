@@ -11,7 +11,7 @@
 namespace sateen::cli {
 
 void add_brdf_options(CLI::App& command, BrdfArguments& arguments) {
-  const auto models = brdf_models();
+  const auto models = brdf::brdf_models();
   command.add_option("model", arguments.model, fmt::format("One of {}", fmt::join(models, ", ")))
       ->required()
       ->check(CLI::IsMember(std::vector<std::string>(models.begin(), models.end())));

@@ -32,14 +32,14 @@ void add_brdf_plot(CLI::App& parent) {
     if (options->output.extension() != ".svg") {
       throw CLI::ValidationError("--output", "the drawing is SVG; give a name that ends in .svg");
     }
-    PlotSettings settings;
+    brdf::PlotSettings settings;
     settings.title = options->brdf.model + ", " + options->brdf.parameters.filename().string();
     settings.light_angles.clear();
     for (const double angle : options->lights) settings.light_angles.push_back(radians(angle));
     settings.with_cosine = options->cosine;
     settings.view_independent = options->brdf.model == "fibre-diffuse";
-    write_text(options->output,
-               brdf_plot(read_brdf(options->brdf.model, options->brdf.parameters), settings));
+    io::write_text(options->output,
+                   brdf::brdf_plot(brdf::read_brdf(options->brdf.model, options->brdf.parameters), settings));
   });
 }
 

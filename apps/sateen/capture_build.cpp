@@ -16,14 +16,14 @@ struct CaptureBuildArguments {
 };
 
 void run(const CaptureBuildArguments& arguments) {
-  CaptureOptions options = capture_options(arguments.capture);
+  capture::CaptureOptions options = capture_options(arguments.capture);
   take_stage_angles(arguments.capture, arguments.inputs, options);
   options.progress = progress_bar("capture");
-  CaptureResult result = build_capture(arguments.inputs, options);
+  capture::CaptureResult result = capture::build_capture(arguments.inputs, options);
   result.table.provenance["program"] = "sateen " SATEEN_VERSION;
-  write_amc(arguments.output, result.table);
+  amc::write_amc(arguments.output, result.table);
   report_capture(arguments.capture, arguments.output, result);
-  if (arguments.json) print(report_json(result));
+  if (arguments.json) print(capture::report_json(result));
 }
 
 }  // namespace

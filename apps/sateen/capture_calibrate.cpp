@@ -20,11 +20,11 @@ struct CaptureCalibrateArguments {
 };
 
 void run(const CaptureCalibrateArguments& arguments) {
-  const auto files = expand_inputs(arguments.inputs, image_extensions());
-  const Calibration found = calibrate(files, arguments.columns, arguments.rows);
+  const auto files = io::expand_inputs(arguments.inputs, io::image_extensions());
+  const capture::Calibration found = capture::calibrate(files, arguments.columns, arguments.rows);
   for (const std::string& file : found.unusable)
     warn(fmt::format("{}: no whole chessboard found, left out", file));
-  write_camera(arguments.output, found.camera, found.rms_pixels);
+  capture::write_camera(arguments.output, found.camera, found.rms_pixels);
   if (!arguments.json) return;
   print(nlohmann::ordered_json{{"focal", {found.camera.focal.x(), found.camera.focal.y()}},
                                {"principal", {found.camera.principal.x(), found.camera.principal.y()}},

@@ -15,8 +15,8 @@ namespace sateen::cli {
 namespace {
 
 struct CaptureLiveArguments {
-  LiveOptions live;
-  GrblOptions grbl;
+  capture::LiveOptions live;
+  capture::GrblOptions grbl;
   std::string stage = "manual";
   std::string camera = "0";
   int settle = 300;
@@ -25,37 +25,37 @@ struct CaptureLiveArguments {
   CaptureArguments capture;
 };
 
-std::unique_ptr<Stage> open_stage(const CaptureLiveArguments& arguments) {
+std::unique_ptr<capture::Stage> open_stage(const CaptureLiveArguments& arguments) {
   if (arguments.stage == "continuous")
-    return continuous_stage(std::chrono::milliseconds(std::llround(arguments.turn_seconds * 1000)));
+    return capture::continuous_stage(std::chrono::milliseconds(std::llround(arguments.turn_seconds * 1000)));
   if (arguments.stage == "manual") {
-    return manual_stage([](const std::string& text) {
+    return capture::manual_stage([](const std::string& text) {
       fmt::print(stderr, "{}: ", text);
       std::string line;
       if (!std::getline(std::cin, line))
         throw Error("no more input: the capture can be resumed with the same command");
     });
   }
-  GrblOptions options = arguments.grbl;
+  capture::GrblOptions options = arguments.grbl;
   options.settle = std::chrono::milliseconds(arguments.settle);
-  return open_grbl_stage(arguments.stage.substr(5), options);
+  return capture::open_grbl_stage(arguments.stage.substr(5), options);
 }
 
 void run(const CaptureLiveArguments& arguments) {
-  CaptureOptions options = capture_options(arguments.capture);
+  capture::CaptureOptions options = capture_options(arguments.capture);
   const auto stage = open_stage(arguments);
-  const auto camera = open_live_camera(arguments.camera);
+  const auto camera = capture::open_live_camera(arguments.camera);
   for (const std::string& warning : camera->warnings()) warn(warning);
-  LiveOptions live = arguments.live;
+  capture::LiveOptions live = arguments.live;
   live.progress = progress_bar("shooting");
-  const LiveResult shot = capture_live(*stage, *camera, live);
+  const capture::LiveResult shot = capture::capture_live(*stage, *camera, live);
   if (shot.found > 0)
     warn(fmt::format("{} frames of an earlier capture were kept, {} taken", shot.found, shot.taken));
   if (arguments.output.empty()) return;
   take_stage_angles(arguments.capture, {live.folder}, options);
-  CaptureResult result = build_capture({live.folder}, options);
+  capture::CaptureResult result = capture::build_capture({live.folder}, options);
   result.table.provenance["program"] = "sateen " SATEEN_VERSION;
-  write_amc(arguments.output, result.table);
+  amc::write_amc(arguments.output, result.table);
   report_capture(arguments.capture, arguments.output, result);
 }
 

@@ -17,7 +17,7 @@ namespace {
 
 /// Numbers separated by blanks, commas or line ends; # starts a comment.
 std::vector<double> read_numbers(const std::filesystem::path& path) {
-  const std::string text = read_text(path);
+  const std::string text = io::read_text(path);
   std::vector<double> numbers;
   int line = 1;
   for (const char* p = text.c_str(); *p != '\0';) {
@@ -37,10 +37,10 @@ std::vector<double> read_numbers(const std::filesystem::path& path) {
   return numbers;
 }
 
-std::optional<Response> response_of(const std::string& name) {
+std::optional<capture::Response> response_of(const std::string& name) {
   if (name == "auto") return std::nullopt;
-  if (name == "srgb") return Response::srgb();
-  if (name == "linear") return Response::linear();
+  if (name == "srgb") return capture::Response::srgb();
+  if (name == "linear") return capture::Response::linear();
   if (name.starts_with("gamma:")) {
     double exponent = 0;
     const char* first = name.c_str() + 6;
@@ -48,9 +48,9 @@ std::optional<Response> response_of(const std::string& name) {
     if (error != std::errc() || *end != '\0' || !(exponent > 0)) {
       throw CLI::ValidationError("--response", "gamma:G needs a positive number, as in gamma:2.2");
     }
-    return Response::gamma(exponent);
+    return capture::Response::gamma(exponent);
   }
-  Response response;
+  capture::Response response;
   for (const double value : read_numbers(name)) response.curve.push_back(static_cast<float>(value));
   if (response.curve.size() < 2 || !(response.curve.back() > response.curve.front())) {
     throw Error(fmt::format(
@@ -62,7 +62,7 @@ std::optional<Response> response_of(const std::string& name) {
 }  // namespace
 
 void add_capture_options(CLI::App& command, CaptureArguments& a) {
-  CaptureOptions& o = a.options;
+  capture::CaptureOptions& o = a.options;
   command.add_option("--report", a.report, "Folder for report.json and report.html");
   command.add_option("--size", o.size, "Texels along each normal axis (S)")->check(CLI::Range(16, 1024));
   command.add_option("--slices", o.slices, "Tangent angles in one period (S_k)")->check(CLI::Range(4, 2048));
@@ -103,7 +103,7 @@ void add_capture_options(CLI::App& command, CaptureArguments& a) {
       ->check(CLI::IsMember({"ccw", "cw"}))
       ->group(turning);
   command.add_option("--max-frames", o.source.max_frames, "Of longer sequences every n-th frame is used")
-      ->check(CLI::Range(kFewestCaptureFrames, 100000))
+      ->check(CLI::Range(capture::kFewestCaptureFrames, 100000))
       ->group(turning);
 
   const auto tangent = "Tangent (all angles in degrees, counter-clockwise from the picture's right)";
@@ -158,56 +158,56 @@ void add_capture_options(CLI::App& command, CaptureArguments& a) {
   command.add_flag("--keep-seams", a.keep_seams, "Do not look for seams")->group(light);
 }
 
-CaptureOptions capture_options(const CaptureArguments& a) {
-  CaptureOptions o = a.options;
+capture::CaptureOptions capture_options(const CaptureArguments& a) {
+  capture::CaptureOptions o = a.options;
   if (a.symmetry != "auto") o.symmetry = std::stoi(a.symmetry);
-  o.encoding = a.encoding == "half" ? AmcEncoding::half : AmcEncoding::srgb8;
-  o.frame = a.perspective == "eye" ? TableFrame::eye : TableFrame::view;
+  o.encoding = a.encoding == "half" ? amc::AmcEncoding::half : amc::AmcEncoding::srgb8;
+  o.frame = a.perspective == "eye" ? capture::TableFrame::eye : capture::TableFrame::view;
   o.fov = radians(a.fov);
   o.find_blemishes = !a.keep_seams;
   o.source.response = response_of(a.response);
-  if (!a.calibration.empty()) o.camera = read_camera(a.calibration);
+  if (!a.calibration.empty()) o.camera = capture::read_camera(a.calibration);
   if (a.angles == "equal") {
-    o.angle_source = AngleSource::equal;
+    o.angle_source = capture::AngleSource::equal;
     o.clockwise = a.direction == "cw";
   } else if (a.angles != "pictures" && a.angles != "auto") {
-    o.angle_source = AngleSource::given;
+    o.angle_source = capture::AngleSource::given;
     for (const double angle : read_numbers(a.angles)) o.angles.push_back(radians(angle));
   }
   if (a.first_angle_option->count() > 0) {
     o.zero_given = true;
     o.zero_angle = radians(a.first_angle);
   } else if (a.thread_option->count() > 0) {
-    o.zero = ZeroAngle::thread;
+    o.zero = capture::ZeroAngle::thread;
     o.zero_angle = radians(a.thread_direction);
     o.zero_frame = a.thread_frame;
   } else if (a.seam_option->count() > 0) {
-    o.zero = ZeroAngle::seam;
+    o.zero = capture::ZeroAngle::seam;
     o.zero_angle = radians(a.from_seam);
   } else if (a.weave_option->count() > 0) {
-    o.zero = ZeroAngle::weave;
+    o.zero = capture::ZeroAngle::weave;
     o.zero_angle = radians(a.from_weave);
   }
   return o;
 }
 
 void take_stage_angles(const CaptureArguments& arguments, const std::vector<std::filesystem::path>& inputs,
-                       CaptureOptions& options) {
+                       capture::CaptureOptions& options) {
   std::error_code code;
   if (arguments.angles != "auto" || inputs.size() != 1 || !std::filesystem::is_directory(inputs[0], code))
     return;
-  for (const double angle : stage_angles(inputs[0])) options.angles.push_back(radians(angle));
-  if (!options.angles.empty()) options.angle_source = AngleSource::given;
+  for (const double angle : capture::stage_angles(inputs[0])) options.angles.push_back(radians(angle));
+  if (!options.angles.empty()) options.angle_source = capture::AngleSource::given;
 }
 
 void report_capture(const CaptureArguments& arguments, const std::filesystem::path& output,
-                    const CaptureResult& result) {
+                    const capture::CaptureResult& result) {
   if (!result.environment.empty()) {
     std::filesystem::path light = output;
-    write_image(light.replace_extension(".light.exr"), result.environment);
+    io::write_image(light.replace_extension(".light.exr"), result.environment);
   }
   for (const std::string& warning : result.warnings) warn(warning);
-  if (!arguments.report.empty()) write_report(arguments.report, result);
+  if (!arguments.report.empty()) capture::write_report(arguments.report, result);
 }
 
 }  // namespace sateen::cli

@@ -14,7 +14,7 @@ namespace sateen::cli {
 /// The options of `capture build`, which `capture live` takes too for the table it makes in the end.
 struct CaptureArguments {
   std::filesystem::path report;
-  CaptureOptions options;
+  capture::CaptureOptions options;
   std::string symmetry = "auto";
   std::string encoding = "half";
   std::string angles = "auto";
@@ -38,14 +38,14 @@ struct CaptureArguments {
 void add_capture_options(CLI::App& command, CaptureArguments& arguments);
 
 /// The library's options from the parsed ones. Throws Error for files that are wrong.
-CaptureOptions capture_options(const CaptureArguments& arguments);
+capture::CaptureOptions capture_options(const CaptureArguments& arguments);
 
 /// With --angles auto, what the stage of a live capture left in its folder, if that is the only input.
 void take_stage_angles(const CaptureArguments& arguments, const std::vector<std::filesystem::path>& inputs,
-                       CaptureOptions& options);
+                       capture::CaptureOptions& options);
 
 /// Warnings on stderr, the light of a mirror ball beside `output`, the report if a folder for it was named.
 void report_capture(const CaptureArguments& arguments, const std::filesystem::path& output,
-                    const CaptureResult& result);
+                    const capture::CaptureResult& result);
 
 }  // namespace sateen::cli

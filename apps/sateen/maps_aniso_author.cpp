@@ -18,8 +18,8 @@ struct MapsAnisoAuthorArguments {
 };
 
 /// A constant angle is in degrees; a map is scaled by --angle-range.
-MapInput angle_input(const std::string& text) {
-  MapInput input = parse_map_input(text);
+texture::MapInput angle_input(const std::string& text) {
+  texture::MapInput input = texture::parse_map_input(text);
   input.value /= 360;
   return input;
 }
@@ -39,30 +39,31 @@ void refuse(const MapsAnisoAuthorArguments& a, bool uv) {
     throw CLI::ValidationError("give either --roughness-u and --roughness-v, or --gloss-u and --gloss-v");
   }
   if (!uv && a.roughness.empty()) throw CLI::ValidationError("--style " + a.style + " needs --roughness");
-  if (!a.vectors.empty() && !a.rotation.empty() && !parse_map_input(a.rotation).file.empty()) {
+  if (!a.vectors.empty() && !a.rotation.empty() && !texture::parse_map_input(a.rotation).file.empty()) {
     throw CLI::ValidationError("--vectors goes with a constant --rotation, not with a map");
   }
 }
 
 void run(const MapsAnisoAuthorArguments& a) {
-  AuthorInputs in;
-  in.style = anisotropy_style_from_name(a.style);
-  const bool uv = in.style == AnisotropyStyle::uv;
+  texture::AuthorInputs in;
+  in.style = texture::anisotropy_style_from_name(a.style);
+  const bool uv = in.style == texture::AnisotropyStyle::uv;
   refuse(a, uv);
   if (uv) {
     in.gloss = !a.gloss_u.empty();
-    in.along = parse_map_input(in.gloss ? a.gloss_u : a.roughness_u);
-    in.across = parse_map_input(in.gloss ? a.gloss_v : a.roughness_v);
+    in.along = texture::parse_map_input(in.gloss ? a.gloss_u : a.roughness_u);
+    in.across = texture::parse_map_input(in.gloss ? a.gloss_v : a.roughness_v);
   } else {
-    in.roughness = parse_map_input(a.roughness);
+    in.roughness = texture::parse_map_input(a.roughness);
     // A glTF texture's strength is a factor's to scale: 1 unless told otherwise.
-    in.amount = a.amount.empty() ? MapInput{{}, 0, a.vectors.empty() ? 0.0 : 1.0} : parse_map_input(a.amount);
+    in.amount = a.amount.empty() ? texture::MapInput{{}, 0, a.vectors.empty() ? 0.0 : 1.0}
+                                 : texture::parse_map_input(a.amount);
   }
   if (!a.rotation.empty()) in.rotation = angle_input(a.rotation);
   in.turns_at_one = a.angle_range / 360;
   in.vectors = a.vectors;
-  author_anisotropy(in, a.output, anisotropy_encoding_from_name(a.encoding), a.bits,
-                    progress_bar("authoring"));
+  texture::author_anisotropy(in, a.output, texture::anisotropy_encoding_from_name(a.encoding), a.bits,
+                             progress_bar("authoring"));
 }
 
 }  // namespace

@@ -12,7 +12,7 @@ namespace sateen::cli {
 namespace {
 
 struct MapsAnisoFilterArguments {
-  LobeMapFiles files;
+  texture::LobeMapFiles files;
   std::filesystem::path output;
   std::vector<double> roughness_values;
   std::string normal_values = "unsigned";
@@ -33,11 +33,13 @@ struct MapsAnisoFilterArguments {
   bool json = false;
 };
 
-LobeOutput::Kind kind_of(const MapsAnisoFilterArguments& a) {
-  const std::string extension = extension_of(a.output);
-  if (extension == ".png") return a.bits == 8 ? LobeOutput::Kind::png8 : LobeOutput::Kind::png;
-  if (extension == ".exr") return LobeOutput::Kind::exr;
-  if (extension == ".ktx2") return a.blocks == "bc" ? LobeOutput::Kind::ktx2_blocks : LobeOutput::Kind::ktx2;
+texture::LobeOutput::Kind kind_of(const MapsAnisoFilterArguments& a) {
+  const std::string extension = io::extension_of(a.output);
+  if (extension == ".png")
+    return a.bits == 8 ? texture::LobeOutput::Kind::png8 : texture::LobeOutput::Kind::png;
+  if (extension == ".exr") return texture::LobeOutput::Kind::exr;
+  if (extension == ".ktx2")
+    return a.blocks == "bc" ? texture::LobeOutput::Kind::ktx2_blocks : texture::LobeOutput::Kind::ktx2;
   throw Error(fmt::format("{}: a mip chain is written as .png, .exr or .ktx2", a.output.string()));
 }
 
@@ -53,30 +55,31 @@ void run(MapsAnisoFilterArguments a) {
     const double v = a.roughness_values.back();
     a.files.constant = {u * u, v * v, 0};
   }
-  a.files.encoding = anisotropy_encoding_from_name(a.encoding);
+  a.files.encoding = texture::anisotropy_encoding_from_name(a.encoding);
   a.files.normal_format = {a.green_down, a.normal_values == "signed"};
-  LobeFileSource source(a.files);
+  texture::LobeFileSource source(a.files);
 
-  ChainOptions chain;
-  chain.filter.method = filter_method_from_name(a.method);
-  chain.filter.solver = a.power_iteration ? NormalSolver::power_iteration : NormalSolver::eigen;
+  texture::ChainOptions chain;
+  chain.filter.method = texture::filter_method_from_name(a.method);
+  chain.filter.solver =
+      a.power_iteration ? texture::NormalSolver::power_iteration : texture::NormalSolver::eigen;
   chain.filter.encoding = a.files.encoding;
   chain.filter.isotropic = a.isotropic;
-  chain.kernel = mip_kernel_from_name(a.kernel);
-  chain.wrap_u = mip_wrap_from_name(a.wrap_u.empty() ? a.wrap : a.wrap_u);
-  chain.wrap_v = mip_wrap_from_name(a.wrap_v.empty() ? a.wrap : a.wrap_v);
+  chain.kernel = texture::mip_kernel_from_name(a.kernel);
+  chain.wrap_u = texture::mip_wrap_from_name(a.wrap_u.empty() ? a.wrap : a.wrap_u);
+  chain.wrap_v = texture::mip_wrap_from_name(a.wrap_v.empty() ? a.wrap : a.wrap_v);
   chain.levels = a.levels;
 
-  LobeOutput output;
+  texture::LobeOutput output;
   output.kind = kind_of(a);
-  output.encoding =
-      a.output_encoding.empty() ? a.files.encoding : anisotropy_encoding_from_name(a.output_encoding);
+  output.encoding = a.output_encoding.empty() ? a.files.encoding
+                                              : texture::anisotropy_encoding_from_name(a.output_encoding);
   output.green_down = a.green_down;
-  output.effort = a.effort == "fast"   ? Bc7Effort::fast
-                  : a.effort == "best" ? Bc7Effort::best
-                                       : Bc7Effort::normal;
+  output.effort = a.effort == "fast"   ? texture::Bc7Effort::fast
+                  : a.effort == "best" ? texture::Bc7Effort::best
+                                       : texture::Bc7Effort::normal;
   output.zstd_level = a.zstd;
-  const auto written = write_lobe_chain(source, a.output, chain, output, progress_bar("filtering"));
+  const auto written = texture::write_lobe_chain(source, a.output, chain, output, progress_bar("filtering"));
 
   if (source.repaired() > 0) {
     warn(fmt::format("{}: {} normals had no valid direction; black ones became flat, too long ones were cut",

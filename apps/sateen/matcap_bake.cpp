@@ -30,26 +30,27 @@ void run(const MatcapBakeArguments& arguments) {
   if (arguments.layers && !arguments.environment.empty()) {
     throw CLI::ValidationError("--layers", "and --environment exclude each other");
   }
-  if (arguments.layers && extension_of(arguments.output) != ".exr") {
+  if (arguments.layers && io::extension_of(arguments.output) != ".exr") {
     throw CLI::ValidationError("--layers", "only .exr has layers");
   }
-  std::vector<Edit> edits;
-  if (!arguments.edits.empty()) edits = read_edits(arguments.edits);
-  if (!arguments.turn.empty()) edits.push_back(Turn{parse_vector("--turn", arguments.turn) * (kPi / 180)});
-  EditedMatcap matcap = apply_edits(read_matcap(arguments.input), edits);
+  std::vector<matcap::Edit> edits;
+  if (!arguments.edits.empty()) edits = matcap::read_edits(arguments.edits);
+  if (!arguments.turn.empty())
+    edits.push_back(matcap::Turn{parse_vector("--turn", arguments.turn) * (kPi / 180)});
+  matcap::EditedMatcap matcap = matcap::apply_edits(matcap::read_matcap(arguments.input), edits);
   if (arguments.size > 0) {
     matcap.matcap.width = matcap.matcap.height = arguments.size;
-    matcap.matcap.disc = inscribed_disc(arguments.size, arguments.size);
+    matcap.matcap.disc = matcap::inscribed_disc(arguments.size, arguments.size);
   }
   if (arguments.layers) {
-    auto layers = bake_layers(matcap);
-    write_layers(arguments.output, std::vector<ImageLayer>{{"diffuse", std::move(layers[0])},
-                                                           {"specular", std::move(layers[1])}});
+    auto layers = matcap::bake_layers(matcap);
+    io::write_layers(arguments.output, std::vector<io::ImageLayer>{{"diffuse", std::move(layers[0])},
+                                                                   {"specular", std::move(layers[1])}});
   } else if (!arguments.environment.empty()) {
-    const Part part = arguments.environment == "low" ? Part::low : Part::high;
-    write_image(arguments.output, bake_environment(matcap, part, arguments.environment_height));
+    const matcap::Part part = arguments.environment == "low" ? matcap::Part::low : matcap::Part::high;
+    io::write_image(arguments.output, matcap::bake_environment(matcap, part, arguments.environment_height));
   } else {
-    write_image(arguments.output, bake(matcap));
+    io::write_image(arguments.output, matcap::bake(matcap));
   }
 }
 

@@ -26,31 +26,31 @@ struct MatcapDecomposeArguments {
 };
 
 void run(const MatcapDecomposeArguments& arguments) {
-  DecomposeFileOptions options;
+  matcap::DecomposeFileOptions options;
   options.decompose.space = space_of(arguments.matcap);
   options.decompose.outliers = outliers_of(arguments.matcap);
   options.decompose.regions = regions_of(arguments.matcap);
   options.decompose.map_size = arguments.map_size;
   options.disc = disc_of(arguments.matcap);
   options.program = "sateen " SATEEN_VERSION;
-  const auto inputs = expand_inputs(arguments.inputs, image_extensions());
-  if (extension_of(arguments.output) == ".ktx2") {
+  const auto inputs = io::expand_inputs(arguments.inputs, io::image_extensions());
+  if (io::extension_of(arguments.output) == ".ktx2") {
     if (inputs.size() != 1) {
       throw CLI::ValidationError("--output",
                                  fmt::format("{} MatCaps need a folder, not one .ktx2", inputs.size()));
     }
-    decompose_file(inputs[0], arguments.output, options);
+    matcap::decompose_file(inputs[0], arguments.output, options);
     return;
   }
   if (arguments.output.has_extension()) {
     throw CLI::ValidationError("--output", "must be a .ktx2 or a folder (a name without extension)");
   }
   const auto entries =
-      decompose_files(inputs, arguments.output, options, arguments.anew, progress_bar("Decomposing"));
-  write_contact_sheet(arguments.output, entries, progress_bar("Contact sheet"));
+      matcap::decompose_files(inputs, arguments.output, options, arguments.anew, progress_bar("Decomposing"));
+  matcap::write_contact_sheet(arguments.output, entries, progress_bar("Contact sheet"));
   std::string failures;
   int failed = 0;
-  for (const BatchEntry& entry : entries) {
+  for (const matcap::BatchEntry& entry : entries) {
     if (entry.failure.empty()) continue;
     ++failed;
     failures += "\n  " + entry.failure;

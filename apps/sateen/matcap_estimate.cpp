@@ -23,25 +23,25 @@ struct MatcapEstimateArguments {
   bool json = false;
 };
 
-const char* name_of_case(Signature::Case found) {
+const char* name_of_case(matcap::Signature::Case found) {
   switch (found) {
-    case Signature::Case::minimum:
+    case matcap::Signature::Case::minimum:
       return "minimum";
-    case Signature::Case::inflection:
+    case matcap::Signature::Case::inflection:
       return "inflection";
-    case Signature::Case::widest:
+    case matcap::Signature::Case::widest:
       return "widest";
-    case Signature::Case::degenerate:
+    case matcap::Signature::Case::degenerate:
       return "degenerate";
   }
   return "";
 }
 
-nlohmann::json to_json(const FilterEstimate& estimate) {
+nlohmann::json to_json(const matcap::FilterEstimate& estimate) {
   nlohmann::json regions = nlohmann::json::array();
-  for (const Region& r : estimate.regions) regions.push_back({r.x, r.y, r.width, r.height});
+  for (const matcap::Region& r : estimate.regions) regions.push_back({r.x, r.y, r.width, r.height});
   nlohmann::json curve = nlohmann::json::array();
-  const Signature& s = estimate.signature;
+  const matcap::Signature& s = estimate.signature;
   for (std::size_t i = 0; i < s.eps.size(); ++i) {
     // Degenerate windows become null.
     curve.push_back(
@@ -49,10 +49,10 @@ nlohmann::json to_json(const FilterEstimate& estimate) {
          {"variance", std::isfinite(s.variance[i]) ? nlohmann::json(s.variance[i]) : nlohmann::json()}});
   }
   nlohmann::json result{{"variance", estimate.variance},
-                        {"slope", slope_of_variance(estimate.variance)},
+                        {"slope", matcap::slope_of_variance(estimate.variance)},
                         {"measured", estimate.measured},
                         {"automatic", estimate.automatic},
-                        {"feature", estimate.feature == Feature::edge ? "edge" : "line"},
+                        {"feature", estimate.feature == matcap::Feature::edge ? "edge" : "line"},
                         {"case", name_of_case(s.found)},
                         {"regions", regions},
                         {"signature", curve}};
@@ -60,29 +60,32 @@ nlohmann::json to_json(const FilterEstimate& estimate) {
   return result;
 }
 
-std::string as_text(const char* name, const FilterEstimate& estimate) {
+std::string as_text(const char* name, const matcap::FilterEstimate& estimate) {
   return fmt::format("{:<5} variance {:.5f} ({:.2f} degrees), slope {:.4f}, {}\n", name, estimate.variance,
-                     degrees(std::sqrt(estimate.variance)), slope_of_variance(estimate.variance),
-                     estimate.measured
-                         ? (estimate.feature == Feature::edge ? "measured at an edge" : "measured at a line")
-                         : "assumed: nothing sharp enough to measure");
+                     degrees(std::sqrt(estimate.variance)), matcap::slope_of_variance(estimate.variance),
+                     estimate.measured ? (estimate.feature == matcap::Feature::edge ? "measured at an edge"
+                                                                                    : "measured at a line")
+                                       : "assumed: nothing sharp enough to measure");
 }
 
 void run(const MatcapEstimateArguments& arguments) {
   const std::string name = arguments.input.string();
   const auto regions = regions_of(arguments.matcap);
-  const MatcapPicture picture = read_matcap_picture(arguments.input, disc_of(arguments.matcap));
-  const Separation parts = separate(to_add_up_space(picture.image, space_of(arguments.matcap)), picture.disc,
-                                    outliers_of(arguments.matcap), name);
-  const auto estimate = [&](const Image& component, const std::vector<Region>& given, double fallback) {
-    return given.empty() ? estimate_filter(component, picture.disc, fallback)
-                         : estimate_filter(component, picture.disc, given, fallback, name);
+  const matcap::MatcapPicture picture =
+      matcap::read_matcap_picture(arguments.input, disc_of(arguments.matcap));
+  const matcap::Separation parts =
+      matcap::separate(matcap::to_add_up_space(picture.image, space_of(arguments.matcap)), picture.disc,
+                       outliers_of(arguments.matcap), name);
+  const auto estimate = [&](const Image& component, const std::vector<matcap::Region>& given,
+                            double fallback) {
+    return given.empty() ? matcap::estimate_filter(component, picture.disc, fallback)
+                         : matcap::estimate_filter(component, picture.disc, given, fallback, name);
   };
-  const FilterEstimate low = estimate(parts.low, regions[0], kLambertian);
-  const FilterEstimate high = estimate(parts.high, regions[1], kSatin);
+  const matcap::FilterEstimate low = estimate(parts.low, regions[0], matcap::kLambertian);
+  const matcap::FilterEstimate high = estimate(parts.high, regions[1], matcap::kSatin);
   if (!arguments.plot.empty()) {
-    const std::vector<LabelledEstimate> curves{{"low", low}, {"high", high}};
-    write_text(arguments.plot, signature_svg(curves));
+    const std::vector<matcap::LabelledEstimate> curves{{"low", low}, {"high", high}};
+    io::write_text(arguments.plot, matcap::signature_svg(curves));
   }
   if (arguments.json) {
     print(nlohmann::json{{"low", to_json(low)}, {"high", to_json(high)}}.dump(2) + "\n");

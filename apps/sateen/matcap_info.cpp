@@ -12,15 +12,15 @@
 namespace sateen::cli {
 namespace {
 
-std::string as_text(const std::filesystem::path& path, const MatcapDecomposition& matcap) {
+std::string as_text(const std::filesystem::path& path, const matcap::MatcapDecomposition& matcap) {
   std::string text = fmt::format(
       "{}: decomposed MatCap, {} x {} pixels, sphere at ({:g}, {:g}) of radius {:g}\n", path.string(),
       matcap.width, matcap.height, matcap.disc.x, matcap.disc.y, matcap.disc.radius);
   text += fmt::format("  parts add up in {}; sphere maps of {} texels\n",
-                      matcap.space == AddUpSpace::display ? "sRGB values" : "linear light",
-                      matcap[Part::low].map.levels.front().size());
-  for (const Part which : kParts) {
-    const MatcapPart& part = matcap[which];
+                      matcap.space == matcap::AddUpSpace::display ? "sRGB values" : "linear light",
+                      matcap[matcap::Part::low].map.levels.front().size());
+  for (const matcap::Part which : matcap::kParts) {
+    const matcap::MatcapPart& part = matcap[which];
     text += fmt::format(
         "  {:<5} variance {:.5f} ({:.2f} degrees, {}), slope {:.4f}, base colour {:.4f} {:.4f} {:.4f}\n",
         name_of(which), part.variance, degrees(std::sqrt(part.variance)),
@@ -45,14 +45,14 @@ void add_matcap_info(CLI::App& parent) {
   command->add_flag("--json", arguments->json,
                     "Print JSON: low.variance, low.base_color, high.variance, ...");
   command->callback([arguments] {
-    const MatcapDecomposition matcap = read_matcap(arguments->input);
+    const matcap::MatcapDecomposition matcap = matcap::read_matcap(arguments->input);
     if (!arguments->json) {
       print(as_text(arguments->input, matcap));
       return;
     }
-    auto info = nlohmann::json::parse(matcap_json(matcap));
+    auto info = nlohmann::json::parse(matcap::matcap_json(matcap));
     info["file"] = arguments->input.string();
-    info["version"] = kMatcapFileVersion;
+    info["version"] = matcap::kMatcapFileVersion;
     info["bytes"] = std::filesystem::file_size(arguments->input);
     print(info.dump(2) + "\n");
   });

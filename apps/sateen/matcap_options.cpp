@@ -4,8 +4,9 @@
 namespace sateen::cli {
 namespace {
 
-std::vector<Region> to_regions(const std::vector<std::vector<int>>& lists, const std::string& option) {
-  std::vector<Region> regions;
+std::vector<matcap::Region> to_regions(const std::vector<std::vector<int>>& lists,
+                                       const std::string& option) {
+  std::vector<matcap::Region> regions;
   for (const auto& list : lists) {
     if (list.size() != 4 || list[2] < 1 || list[3] < 1) {
       throw CLI::ValidationError(option,
@@ -42,20 +43,20 @@ void add_region_options(CLI::App& command, MatcapArguments& arguments) {
       ->allow_extra_args(false);
 }
 
-std::optional<Disc> disc_of(const MatcapArguments& arguments) {
+std::optional<matcap::Disc> disc_of(const MatcapArguments& arguments) {
   if (arguments.disc.empty()) return std::nullopt;
-  return Disc{arguments.disc[0], arguments.disc[1], arguments.disc[2]};
+  return matcap::Disc{arguments.disc[0], arguments.disc[1], arguments.disc[2]};
 }
 
-AddUpSpace space_of(const MatcapArguments& arguments) {
-  return arguments.linear ? AddUpSpace::linear : AddUpSpace::display;
+matcap::AddUpSpace space_of(const MatcapArguments& arguments) {
+  return arguments.linear ? matcap::AddUpSpace::linear : matcap::AddUpSpace::display;
 }
 
-Outliers outliers_of(const MatcapArguments& arguments) {
-  return arguments.keep_outliers ? Outliers::keep : Outliers::ignore;
+matcap::Outliers outliers_of(const MatcapArguments& arguments) {
+  return arguments.keep_outliers ? matcap::Outliers::keep : matcap::Outliers::ignore;
 }
 
-std::array<std::vector<Region>, 2> regions_of(const MatcapArguments& arguments) {
+std::array<std::vector<matcap::Region>, 2> regions_of(const MatcapArguments& arguments) {
   return {to_regions(arguments.low_regions, "--low-roi"), to_regions(arguments.high_regions, "--roi")};
 }
 

@@ -24,10 +24,10 @@ struct MatcapArguments {
 void add_matcap_options(CLI::App& command, MatcapArguments& arguments);
 void add_region_options(CLI::App& command, MatcapArguments& arguments);
 
-std::optional<Disc> disc_of(const MatcapArguments& arguments);
-AddUpSpace space_of(const MatcapArguments& arguments);
-Outliers outliers_of(const MatcapArguments& arguments);
+std::optional<matcap::Disc> disc_of(const MatcapArguments& arguments);
+matcap::AddUpSpace space_of(const MatcapArguments& arguments);
+matcap::Outliers outliers_of(const MatcapArguments& arguments);
 /// For low and high. Throws CLI::ValidationError for a region without area.
-std::array<std::vector<Region>, 2> regions_of(const MatcapArguments& arguments);
+std::array<std::vector<matcap::Region>, 2> regions_of(const MatcapArguments& arguments);
 
 }  // namespace sateen::cli

@@ -27,12 +27,13 @@ void add_matcap_separate(CLI::App& parent) {
   command->add_option("--high", arguments->high, "High part: the MatCap minus the low part")->required();
   add_matcap_options(*command, arguments->matcap);
   command->callback([arguments] {
-    const MatcapPicture picture = read_matcap_picture(arguments->input, disc_of(arguments->matcap));
-    const Separation parts =
-        separate(to_add_up_space(picture.image, space_of(arguments->matcap)), picture.disc,
-                 outliers_of(arguments->matcap), arguments->input.string());
-    write_data(arguments->low, parts.low);
-    write_data(arguments->high, parts.high);
+    const matcap::MatcapPicture picture =
+        matcap::read_matcap_picture(arguments->input, disc_of(arguments->matcap));
+    const matcap::Separation parts =
+        matcap::separate(matcap::to_add_up_space(picture.image, space_of(arguments->matcap)), picture.disc,
+                         outliers_of(arguments->matcap), arguments->input.string());
+    io::write_data(arguments->low, parts.low);
+    io::write_data(arguments->high, parts.high);
   });
 }
 

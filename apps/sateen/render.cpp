@@ -14,8 +14,8 @@
 #include "sateen/gpu/context.h"
 #include "sateen/io/image.h"
 #include "sateen/io/video.h"
-#include "sateen/render/aov.h"
 #include "sateen/render/renderer.h"
+#include "sateen/scene/aov.h"
 #include "scene_options.h"
 
 namespace sateen::cli {
@@ -38,16 +38,16 @@ struct RenderArguments {
   std::string compare;
 };
 
-Camera camera(const RenderArguments& arguments) {
-  Camera result;
-  if (arguments.camera == "orthographic") result.kind = Camera::Kind::orthographic;
-  if (arguments.camera == "view-space") result.kind = Camera::Kind::view_space;
+scene::Camera camera(const RenderArguments& arguments) {
+  scene::Camera result;
+  if (arguments.camera == "orthographic") result.kind = scene::Camera::Kind::orthographic;
+  if (arguments.camera == "view-space") result.kind = scene::Camera::Kind::view_space;
   result.field_of_view = radians(arguments.fov);
   return result;
 }
 
-PictureSettings picture_settings(const RenderArguments& arguments) {
-  PictureSettings settings;
+render::PictureSettings picture_settings(const RenderArguments& arguments) {
+  render::PictureSettings settings;
   std::tie(settings.width, settings.height) = parse_size("--size", arguments.size);
   settings.samples = arguments.samples;
   settings.background = parse_background("--background", arguments.background);
@@ -83,19 +83,20 @@ void make_folder(const fs::path& folder) {
   if (code) throw Error(fmt::format("{}: cannot be made: {}", folder.string(), code.message()));
 }
 
-void write_aovs(const Frame& frame, const fs::path& picture, const std::vector<std::string>& names) {
+void write_aovs(const render::Picture& frame, const fs::path& picture,
+                const std::vector<std::string>& names) {
   for (const std::string& name : names) {
     fs::path path = picture;
-    write_data(path.replace_extension("." + name + ".exr"), aov(frame, name));
+    io::write_data(path.replace_extension("." + name + ".exr"), scene::aov(*frame.surfaces, name));
   }
 }
 
 /// The same scene in the material to compare with, if there is one.
-std::optional<Renderer> other_renderer(const RenderArguments& arguments) {
+std::optional<render::Renderer> other_renderer(const RenderArguments& arguments) {
   if (arguments.compare.empty()) return std::nullopt;
   SceneArguments scene = arguments.scene;
   scene.materials = {arguments.compare};
-  return std::make_optional<Renderer>(load(scene));
+  return std::make_optional<render::Renderer>(load(scene));
 }
 
 /// Two pictures of the same size in one.
@@ -114,48 +115,49 @@ Image beside(const Image& left, const Image& right) {
 
 void check_aovs(const RenderArguments& arguments) {
   for (const std::string& name : arguments.aovs) {
-    if (std::ranges::count(aov_names(), name) == 0) {
-      throw CLI::ValidationError(
-          "--aov", fmt::format("\"{}\" is not known; known are {}", name, fmt::join(aov_names(), ", ")));
+    if (std::ranges::count(scene::aov_names(), name) == 0) {
+      throw CLI::ValidationError("--aov", fmt::format("\"{}\" is not known; known are {}", name,
+                                                      fmt::join(scene::aov_names(), ", ")));
     }
   }
-  if (!arguments.aovs.empty() && is_video_path(arguments.output)) {
+  if (!arguments.aovs.empty() && io::is_video_path(arguments.output)) {
     throw CLI::ValidationError("--aov", "output variables go beside pictures, not beside a film");
   }
 }
 
 void run(const RenderArguments& arguments) {
-  const PictureSettings settings = picture_settings(arguments);
+  const render::PictureSettings settings = picture_settings(arguments);
   const std::vector<Mat3> poses = rotations(arguments);
   check_aovs(arguments);
-  const bool film = is_video_path(arguments.output);
+  const bool film = io::is_video_path(arguments.output);
   if (film && arguments.turntable == 0) {
     throw CLI::ValidationError("--output", "a film needs --turntable N, its number of pictures");
   }
-  const Scene scene = load(arguments.scene);
-  const auto views = frame_object(scene.mesh, camera(arguments), poses,
-                                  static_cast<double>(settings.width) / settings.height);
+  const scene::Scene scene = load(arguments.scene);
+  const auto views = scene::frame_object(scene.mesh, camera(arguments), poses,
+                                         static_cast<double>(settings.width) / settings.height);
   const gpu::Context context;
-  const Renderer renderer(scene);
-  const std::optional<Renderer> other = other_renderer(arguments);
+  const render::Renderer renderer(scene);
+  const std::optional<render::Renderer> other = other_renderer(arguments);
   const int count = static_cast<int>(views.size());
   const Progress progress = progress_bar("Drawing");
   const auto draw = [&](int i) {
-    const View& view = views[static_cast<std::size_t>(i)];
-    Frame frame = renderer.render(view, settings,
-                                  [&, i](double fraction) { report(progress, (i + fraction) / count); });
+    const scene::View& view = views[static_cast<std::size_t>(i)];
+    render::Picture frame = renderer.render(
+        view, settings, [&, i](double fraction) { report(progress, (i + fraction) / count); });
     if (other) frame.colour = beside(frame.colour, other->render(view, settings).colour);
     return frame;
   };
   if (film) {
-    write_video(arguments.output, count, arguments.frames_per_second, [&](int i) { return draw(i).colour; });
+    io::write_video(arguments.output, count, arguments.frames_per_second,
+                    [&](int i) { return draw(i).colour; });
     return;
   }
   if (arguments.turntable > 0 && !arguments.output.has_extension()) make_folder(arguments.output);
   for (int i = 0; i < count; ++i) {
     const fs::path path = arguments.turntable > 0 ? numbered(arguments.output, i) : arguments.output;
-    const Frame frame = draw(i);
-    write_image(path, frame.colour);
+    const render::Picture frame = draw(i);
+    io::write_image(path, frame.colour);
     write_aovs(frame, path, arguments.aovs);
   }
 }
@@ -197,7 +199,7 @@ void add_render(CLI::App& parent) {
   command
       ->add_option("--aov", arguments->aovs,
                    "Output variables, written as float EXR beside the picture: " +
-                       fmt::format("{}", fmt::join(aov_names(), ",")))
+                       fmt::format("{}", fmt::join(scene::aov_names(), ",")))
       ->delimiter(',');
   command->callback([arguments] { run(*arguments); });
 }

@@ -7,15 +7,15 @@
 namespace sateen::cli {
 namespace {
 
-TangentSource tangent_source(const SceneArguments& arguments) {
-  TangentSource source;
+scene::TangentSource tangent_source(const SceneArguments& arguments) {
+  scene::TangentSource source;
   source.angle = radians(arguments.tangent_angle);
   const std::string& text = arguments.tangents;
   const std::size_t colon = text.find(':');
   const std::string kind = text.substr(0, colon);
   if (colon == std::string::npos && kind == "auto") return source;
   if (colon == std::string::npos && kind == "uv") {
-    source.kind = TangentSource::Kind::uv;
+    source.kind = scene::TangentSource::Kind::uv;
     return source;
   }
   if (colon == std::string::npos || (kind != "around" && kind != "along")) {
@@ -24,17 +24,17 @@ TangentSource tangent_source(const SceneArguments& arguments) {
         "\"" + text +
             "\" is not understood; write auto, uv, around:AXIS or along:AXIS, AXIS being x, y, z or X,Y,Z");
   }
-  source.kind = kind == "around" ? TangentSource::Kind::around : TangentSource::Kind::along;
+  source.kind = kind == "around" ? scene::TangentSource::Kind::around : scene::TangentSource::Kind::along;
   source.axis = parse_axis("--tangents", text.substr(colon + 1)).cast<float>();
   return source;
 }
 
-RenderSwitches switches(const SceneArguments& arguments) {
-  RenderSwitches result;
-  if (arguments.no_cyclic_fix) result.tangent_angle = TangentAngle::naive;
-  if (arguments.per_fragment) result.tangent_angle = TangentAngle::fragment;
-  if (arguments.perspective == "equation4") result.perspective = Perspective::equation4;
-  if (arguments.perspective == "none") result.perspective = Perspective::none;
+scene::RenderSwitches switches(const SceneArguments& arguments) {
+  scene::RenderSwitches result;
+  if (arguments.no_cyclic_fix) result.tangent_angle = scene::TangentAngle::naive;
+  if (arguments.per_fragment) result.tangent_angle = scene::TangentAngle::fragment;
+  if (arguments.perspective == "equation4") result.perspective = scene::Perspective::equation4;
+  if (arguments.perspective == "none") result.perspective = scene::Perspective::none;
   result.renormalise = !arguments.no_renormalise;
   return result;
 }
@@ -83,8 +83,8 @@ void add_scene_options(CLI::App& command, SceneArguments& arguments) {
   command.add_flag("--no-renormalise", arguments.no_renormalise, "Leave interpolated normals shorter than 1");
 }
 
-Scene load(const SceneArguments& arguments) {
-  SceneOptions options;
+scene::Scene load(const SceneArguments& arguments) {
+  scene::SceneOptions options;
   for (const std::string& text : arguments.materials) {
     const std::size_t equals = text.find('=');
     if (equals == std::string::npos) {
@@ -95,9 +95,9 @@ Scene load(const SceneArguments& arguments) {
   }
   options.tangents = tangent_source(arguments);
   if (arguments.occlusion == "none") {
-    options.occlusion = OcclusionSource::none;
+    options.occlusion = scene::OcclusionSource::none;
   } else if (arguments.occlusion == "compute") {
-    options.occlusion = OcclusionSource::compute;
+    options.occlusion = scene::OcclusionSource::compute;
   } else if (arguments.occlusion != "file") {
     options.occlusion_map = arguments.occlusion;
   }
@@ -108,7 +108,7 @@ Scene load(const SceneArguments& arguments) {
   options.environment_turn = radians(arguments.environment_turn);
   options.switches = switches(arguments);
   options.progress = progress_bar("Preparing");
-  return load_scene(arguments.mesh, options);
+  return scene::load_scene(arguments.mesh, options);
 }
 
 }  // namespace sateen::cli

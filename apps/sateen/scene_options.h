@@ -6,7 +6,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "sateen/render/load_scene.h"
+#include "sateen/scene/load_scene.h"
 
 namespace sateen::cli {
 
@@ -32,6 +32,6 @@ struct SceneArguments {
 void add_scene_options(CLI::App& command, SceneArguments& arguments);
 
 /// Reads everything. Throws Error, and CLI::ValidationError for options that are spelled wrongly.
-Scene load(const SceneArguments& arguments);
+scene::Scene load(const SceneArguments& arguments);
 
 }  // namespace sateen::cli

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "sateen/render/shade.h"
+#include "sateen/scene/shade.h"
 
 #include <filesystem>
 
@@ -7,7 +7,7 @@
 #include "commands.h"
 #include "sateen/io/image.h"
 #include "sateen/light/environment.h"
-#include "sateen/render/registry.h"
+#include "sateen/scene/registry.h"
 
 namespace sateen::cli {
 namespace {
@@ -28,18 +28,19 @@ struct ShadeArguments {
 };
 
 void run(const ShadeArguments& arguments) {
-  const auto appearance = arguments.environment.empty()
-                              ? load_appearance(arguments.material)
-                              : load_appearance(arguments.material, read_environment(arguments.environment));
-  const auto read = [](const fs::path& path) { return path.empty() ? Image() : read_data(path); };
-  const ShadeInputs inputs{.normals = read(arguments.normals),
-                           .tangents = read(arguments.tangents),
-                           .positions = read(arguments.positions),
-                           .occlusion = read(arguments.occlusion),
-                           .uvs = read(arguments.uvs),
-                           .curvature = read(arguments.curvature),
-                           .mesh_normals = read(arguments.mesh_normals)};
-  write_image(arguments.output, shade(*appearance, inputs, progress_bar("Shading")));
+  const auto appearance =
+      arguments.environment.empty()
+          ? scene::load_appearance(arguments.material)
+          : scene::load_appearance(arguments.material, light::read_environment(arguments.environment));
+  const auto read = [](const fs::path& path) { return path.empty() ? Image() : io::read_data(path); };
+  const scene::ShadeInputs inputs{.normals = read(arguments.normals),
+                                  .tangents = read(arguments.tangents),
+                                  .positions = read(arguments.positions),
+                                  .occlusion = read(arguments.occlusion),
+                                  .uvs = read(arguments.uvs),
+                                  .curvature = read(arguments.curvature),
+                                  .mesh_normals = read(arguments.mesh_normals)};
+  io::write_image(arguments.output, scene::shade(*appearance, inputs, progress_bar("Shading")));
 }
 
 }  // namespace

@@ -15,7 +15,7 @@
 #include "support/analytic_material.h"
 #include "support/files.h"
 
-namespace sateen {
+namespace sateen::amc {
 namespace {
 
 constexpr int kFrames = 128;
@@ -42,7 +42,7 @@ const std::vector<std::filesystem::path>& frames() {
           if (sphere.at(x, y, 0) >= 0) picture.set_rgb(x + kCrop.x, y + kCrop.y, sphere.rgb(x, y));
         }
       }
-      write_image(result[static_cast<std::size_t>(i)], picture);
+      io::write_image(result[static_cast<std::size_t>(i)], picture);
     });
     return result;
   }();
@@ -90,4 +90,4 @@ void BuildAgainstDecode(benchmark::State& state) {
 BENCHMARK(BuildAgainstDecode)->Unit(benchmark::kSecond)->Iterations(3)->UseRealTime();
 
 }  // namespace
-}  // namespace sateen
+}  // namespace sateen::amc

@@ -17,13 +17,13 @@ using namespace sateen;
 
 /// Residuals of the table, and of the slides' ambient product, at directions between its nodes.
 struct TableErrors {
-  FitError scattered_down;
+  brdf::FitError scattered_down;
   double response_table = 0;   ///< largest ratio to the integral, either way
   double response_slides = 0;  ///< the same of G~ (1 - P_s)
 };
 
-TableErrors table_errors(const FuzzParameters& fuzz) {
-  const FuzzTable table = make_fuzz_table(fuzz);
+TableErrors table_errors(const brdf::FuzzParameters& fuzz) {
+  const brdf::FuzzTable table = brdf::make_fuzz_table(fuzz);
   TableErrors errors;
   int count = 0;
   for (int i = 0; i < 14; ++i) {
@@ -32,13 +32,13 @@ TableErrors table_errors(const FuzzParameters& fuzz) {
     for (int j = 0; j < 11; ++j, ++count) {
       const double phi = kPi * (j + 0.37) / 11;
       const Vec3 w(r * std::cos(phi), r * std::sin(phi), z);
-      const double exact = fuzz_scattered_down(fuzz, w, 1e-5);
+      const double exact = brdf::fuzz_scattered_down(fuzz, w, 1e-5);
       const double difference = table.scattered_down(w).x() - exact;
       errors.scattered_down.rmse += difference * difference;
       errors.scattered_down.largest = std::max(errors.scattered_down.largest, std::abs(difference));
-      const double response = fuzz_uniform_response(fuzz, w, 1e-6);
+      const double response = brdf::fuzz_uniform_response(fuzz, w, 1e-6);
       const auto ratio = [&](double value) { return std::max(value / response, response / value); };
-      const double visibility = fuzz_visibility_slides(fuzz.density, z);
+      const double visibility = brdf::fuzz_visibility_slides(fuzz.density, z);
       errors.response_table = std::max(errors.response_table, ratio(table.response(w) * visibility));
       errors.response_slides = std::max(errors.response_slides, ratio((1 - exact) * visibility));
     }
@@ -50,11 +50,11 @@ TableErrors table_errors(const FuzzParameters& fuzz) {
 }  // namespace
 
 int main() {
-  const VisibilityFit g = fit_visibility();
+  const brdf::VisibilityFit g = brdf::fit_visibility();
   fmt::print("G~(d, m) = d (1 + c0 m + c1 m^2) / (d + c2 m + c3 m^3), d in (0, 0.5]\n");
   fmt::print("  c = {{{:.9f}}}\n  rmse {:.4f}, largest {:.4f}\n\n", fmt::join(g.coefficients, ", "),
              g.error.rmse, g.error.largest);
-  const PassingFit q = fit_passing();
+  const brdf::PassingFit q = brdf::fit_passing();
   fmt::print("Q~(d) = 1 + c0 d + c1 d^2, d in [0, 0.5]\n");
   fmt::print("  c = {{{:.9f}}}\n  rmse {:.4f}, largest {:.4f}\n\n", fmt::join(q.coefficients, ", "),
              q.error.rmse, q.error.largest);
@@ -64,12 +64,12 @@ int main() {
   for (const double alpha : {0.1, 0.2, 0.35, 0.5, 0.7, 0.95}) {
     fmt::print("{:>6}", alpha);
     for (int degree = 2; degree <= 4; ++degree) {
-      FitError worst;
+      brdf::FitError worst;
       for (int i = 0; i < 5; ++i) {
-        FuzzParameters fuzz;
+        brdf::FuzzParameters fuzz;
         fuzz.alpha = alpha;
         fuzz.tilt = radians(22.5 * i);
-        const FitError error = fit_scattered_down(fuzz, degree).error;
+        const brdf::FitError error = brdf::fit_scattered_down(fuzz, degree).error;
         worst.rmse = std::max(worst.rmse, error.rmse);
         worst.largest = std::max(worst.largest, error.largest);
       }
@@ -85,7 +85,7 @@ int main() {
   for (const double alpha : {0.1, 0.2, 0.35, 0.5, 0.7, 0.95}) {
     TableErrors worst;
     for (int i = 0; i < 5; ++i) {
-      FuzzParameters fuzz;
+      brdf::FuzzParameters fuzz;
       fuzz.alpha = alpha;
       fuzz.tilt = radians(22.5 * i);
       const TableErrors errors = table_errors(fuzz);

@@ -8,13 +8,13 @@
 #include <epoxy/gl.h>
 #include <fmt/format.h>
 
-#include "sateen/brdf/layered.h"
+#include "sateen/brdf/layered/layered.h"
 #include "sateen/core/direction.h"
 #include "sateen/gpu/context.h"
 #include "sateen/gpu/framebuffer.h"
 #include "sateen/gpu/timer.h"
-#include "sateen/render/constant.h"
 #include "sateen/render/renderer.h"
+#include "sateen/scene/constant.h"
 #include "support/shapes.h"
 
 namespace {
@@ -23,26 +23,26 @@ using namespace sateen;
 
 struct Case {
   const char* name;
-  std::shared_ptr<const Appearance> appearance;
+  std::shared_ptr<const appearance::Appearance> appearance;
   double best = std::numeric_limits<double>::infinity();
 };
 
-std::vector<Case> cases(const Lighting& lighting) {
-  LayeredMaterial ggx;
-  ggx.specular = GgxParameters{{0.2, 0.5, 0.3}, {0.1, 0.1, 0.1}, false};
-  LayeredMaterial fuzz;
-  fuzz.fuzz = FuzzParameters{};
+std::vector<Case> cases(const brdf::Lighting& lighting) {
+  brdf::LayeredMaterial ggx;
+  ggx.specular = brdf::GgxParameters{{0.2, 0.5, 0.3}, {0.1, 0.1, 0.1}, false};
+  brdf::LayeredMaterial fuzz;
+  fuzz.fuzz = brdf::FuzzParameters{};
   fuzz.fuzz->tilt = radians(30);
-  LayeredMaterial slides = fuzz;
+  brdf::LayeredMaterial slides = fuzz;
   slides.fuzz_slides = true;
-  LayeredMaterial both = fuzz;
+  brdf::LayeredMaterial both = fuzz;
   both.specular = ggx.specular;
-  LayeredMaterial simple;
+  brdf::LayeredMaterial simple;
   simple.simple_fuzziness = 0.7;
-  const auto look = [&](const LayeredMaterial& material) {
-    return std::make_shared<const LayeredAppearance>(material, lighting);
+  const auto look = [&](const brdf::LayeredMaterial& material) {
+    return std::make_shared<const brdf::LayeredAppearance>(material, lighting);
   };
-  return {{"constant colour", std::make_shared<const Constant>(Vec3::Ones())},
+  return {{"constant colour", std::make_shared<const scene::Constant>(Vec3::Ones())},
           {"anisotropic GGX", look(ggx)},
           {"fuzz, table", look(fuzz)},
           {"fuzz, slides' polynomials", look(slides)},
@@ -50,16 +50,16 @@ std::vector<Case> cases(const Lighting& lighting) {
           {"simplified fuzz", look(simple)}};
 }
 
-void measure(const char* title, const Lighting& lighting) {
+void measure(const char* title, const brdf::Lighting& lighting) {
   constexpr int kSize = 512;
   constexpr int kRounds = 9;
   std::vector<Case> all = cases(lighting);
-  Camera camera;
-  camera.kind = Camera::Kind::view_space;
+  scene::Camera camera;
+  camera.kind = scene::Camera::Kind::view_space;
   const std::vector<Mat3> pose{rotation_xyz({-0.4, 0.3, 0})};
   const gpu::Framebuffer target(kSize, kSize);
-  std::vector<Renderer> renderers;
-  Scene scene;
+  std::vector<render::Renderer> renderers;
+  scene::Scene scene;
   scene.mesh = test::plane();
   for (Vec3f& p : scene.mesh.positions) p *= 1.6f;
   scene.materials.resize(1);
@@ -67,7 +67,7 @@ void measure(const char* title, const Lighting& lighting) {
     scene.materials[0].appearance = one.appearance;
     renderers.emplace_back(scene);
   }
-  const View view = frame_object(scene.mesh, camera, pose, 1)[0];
+  const scene::View view = scene::frame_object(scene.mesh, camera, pose, 1)[0];
   for (int round = 0; round < kRounds; ++round) {
     for (std::size_t i = 0; i < all.size(); ++i) {
       target.bind();
@@ -93,9 +93,9 @@ void measure(const char* title, const Lighting& lighting) {
 int main() {
   const gpu::Context context;
   context.make_current();
-  PunctualLight lamp;
+  light::PunctualLight lamp;
   lamp.direction = Vec3(-0.4, 0.6, 0.7).normalized();
-  Lighting lighting;
+  brdf::Lighting lighting;
   lighting.harmonics.c[0] = Vec3::Constant(0.3);
   lighting.lights = {lamp};
   measure("one lamp and harmonics", lighting);

@@ -66,7 +66,7 @@ sateen::test::Simulation photographed() {
 void write_photographs(const sateen::test::Simulation& s, const std::filesystem::path& folder) {
   static_cast<void>(s.render(0));  // draws the background that all share
   sateen::parallel_for(s.frames, [&](int i) {
-    sateen::Picture8 picture = s.render(i);
+    sateen::io::Picture8 picture = s.render(i);
     cv::Mat pixels(s.height, s.width, CV_8UC3, picture.rgb.data());
     cv::cvtColor(pixels, pixels, cv::COLOR_RGB2BGR);
     cv::imwrite((folder / fmt::format("frame_{:03}.jpg", i)).string(), pixels,
@@ -78,8 +78,8 @@ void photographs_to_amc(benchmark::State& state) {
   const sateen::test::Simulation s = photographed();
   const sateen::test::TemporaryFolder folder;
   write_photographs(s, folder.path());
-  const auto files = sateen::expand_inputs({folder.path()}, sateen::image_extensions());
-  sateen::CaptureOptions options;
+  const auto files = sateen::io::expand_inputs({folder.path()}, sateen::io::image_extensions());
+  sateen::capture::CaptureOptions options;
   options.fov = 2 * std::atan(s.width / 2.0 / s.focal);
   options.zero_given = true;
   Cost decode;
@@ -88,18 +88,20 @@ void photographs_to_amc(benchmark::State& state) {
     measure(decode, [&] {
       for (int pass = 0; pass < 2; ++pass) {
         sateen::parallel_for(s.frames, [&](int i) {
-          benchmark::DoNotOptimize(sateen::read_picture8(files[static_cast<std::size_t>(i)]));
+          benchmark::DoNotOptimize(sateen::io::read_picture8(files[static_cast<std::size_t>(i)]));
         });
       }
     });
-    measure(build, [&] { benchmark::DoNotOptimize(sateen::build_capture({folder.path()}, options)); });
+    measure(build,
+            [&] { benchmark::DoNotOptimize(sateen::capture::build_capture({folder.path()}, options)); });
   }
-  const double decode_seconds = sateen::median(decode.clock);
-  const double build_seconds = sateen::median(build.clock);
+  const double decode_seconds = sateen::capture::median(decode.clock);
+  const double build_seconds = sateen::capture::median(build.clock);
   state.counters["decode_twice_s"] = decode_seconds;
   state.counters["build_s"] = build_seconds;
   state.counters["times_decoding"] = build_seconds / decode_seconds;
-  state.counters["times_decoding_cpu"] = sateen::median(build.cpu) / sateen::median(decode.cpu);
+  state.counters["times_decoding_cpu"] =
+      sateen::capture::median(build.cpu) / sateen::capture::median(decode.cpu);
   state.counters["peak_MB"] = static_cast<double>(usage_now().ru_maxrss) / 1024;
 }
 BENCHMARK(photographs_to_amc)->Unit(benchmark::kSecond)->Iterations(3);

@@ -18,7 +18,7 @@
 #include "support/files.h"
 #include "support/meshes.h"
 
-namespace sateen {
+namespace sateen::io {
 namespace {
 
 namespace fs = std::filesystem;
@@ -81,7 +81,7 @@ void read_and_prepare(benchmark::State& state, const std::string& extension) {
   const fs::path& path = file_of(extension, state.range(0));
   for (auto _ : state) {
     Model model = read_model(path);
-    compute_tangents(model.mesh);
+    geometry::compute_tangents(model.mesh);
     benchmark::DoNotOptimize(model.mesh.tangents.data());
   }
   count(state);
@@ -97,7 +97,7 @@ void read_file_bytes(benchmark::State& state, const std::string& extension) {
 template <class Compute>
 void compute(benchmark::State& state, const Compute& work, bool normals) {
   Mesh mesh = cloth(state.range(0));
-  if (normals) compute_normals(mesh);
+  if (normals) geometry::compute_normals(mesh);
   for (auto _ : state) {
     state.PauseTiming();
     Mesh copy = mesh;
@@ -109,17 +109,17 @@ void compute(benchmark::State& state, const Compute& work, bool normals) {
 }
 
 void normals(benchmark::State& state) {
-  compute(state, compute_normals, false);
+  compute(state, geometry::compute_normals, false);
 }
 void tangents(benchmark::State& state) {
-  compute(state, compute_tangents, true);
+  compute(state, geometry::compute_tangents, true);
 }
 void curvature(benchmark::State& state) {
-  compute(state, compute_curvature, true);
+  compute(state, geometry::compute_curvature, true);
 }
 void occlusion_32_rays(benchmark::State& state) {
   compute(
-      state, [](Mesh& mesh) { compute_occlusion(mesh, 32); }, true);
+      state, [](Mesh& mesh) { geometry::compute_occlusion(mesh, 32); }, true);
 }
 
 void small_and_large(benchmark::internal::Benchmark* bench) {
@@ -142,4 +142,4 @@ BENCHMARK(curvature)->Apply(small_and_large);
 BENCHMARK(occlusion_32_rays)->Arg(100'000)->Unit(benchmark::kMillisecond)->UseRealTime();
 
 }  // namespace
-}  // namespace sateen
+}  // namespace sateen::io

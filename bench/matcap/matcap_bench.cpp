@@ -16,7 +16,7 @@
 #include "support/matcaps.h"
 #include "support/opening_brute_force.h"
 
-namespace sateen {
+namespace sateen::matcap {
 namespace {
 
 /// Processor time of this program, which other programs do not lengthen; on one thread, what the clock on the
@@ -112,4 +112,4 @@ void decomposition(benchmark::State& state) {
 BENCHMARK(decomposition)->Arg(400)->Arg(800)->Unit(benchmark::kMillisecond)->UseRealTime();
 
 }  // namespace
-}  // namespace sateen
+}  // namespace sateen::matcap

@@ -19,13 +19,13 @@
 #include "sateen/gpu/timer.h"
 #include "sateen/matcap/decomposed_appearance.h"
 #include "sateen/matcap/matcap.h"
-#include "sateen/render/constant.h"
 #include "sateen/render/renderer.h"
+#include "sateen/scene/constant.h"
 #include "support/analytic_material.h"
 #include "support/files.h"
 #include "support/shapes.h"
 
-namespace sateen {
+namespace sateen::render {
 namespace {
 
 constexpr int kSide = 1024;
@@ -46,17 +46,17 @@ Mesh sheet() {
   return mesh;
 }
 
-std::shared_ptr<const Appearance> appearance(Subject subject) {
-  if (subject == kConstant) return std::make_shared<const Constant>(Vec3(0.2, 0.4, 0.6));
-  AmcTable table = test::analytic_table(128, 128, 2);
-  table.encoding = AmcEncoding::srgb8;
-  quantise(table);
+std::shared_ptr<const appearance::Appearance> appearance(Subject subject) {
+  if (subject == kConstant) return std::make_shared<const scene::Constant>(Vec3(0.2, 0.4, 0.6));
+  amc::AmcTable table = test::analytic_table(128, 128, 2);
+  table.encoding = amc::AmcEncoding::srgb8;
+  amc::quantise(table);
   if (subject == kDecomposed) {
-    return std::make_shared<const DecomposedAppearance>(
-        unedited(decompose(isotropic_average(table), inscribed_disc(128, 128), {}, "matcap")));
+    return std::make_shared<const matcap::DecomposedAppearance>(matcap::unedited(
+        matcap::decompose(amc::isotropic_average(table), matcap::inscribed_disc(128, 128), {}, "matcap")));
   }
-  if (subject == kMatCap) return std::make_shared<const MatCap>(isotropic_average(table));
-  return std::make_shared<const AmcAppearance>(table);
+  if (subject == kMatCap) return std::make_shared<const matcap::MatCap>(amc::isotropic_average(table));
+  return std::make_shared<const amc::AmcAppearance>(table);
 }
 
 constexpr std::array kSubjects{kConstant, kMatCap, kDecomposed, kAmc, kAmcPerFragment};
@@ -69,19 +69,19 @@ double median(std::vector<double> values) {
 
 /// Draws all subjects in turn in every iteration, so that a busy machine slows them alike. Reports the median
 /// milliseconds of the plain MatCap's frame, and the others' as multiples of it.
-void draw(benchmark::State& state, const Mesh& mesh, const Camera& camera) {
+void draw(benchmark::State& state, const Mesh& mesh, const scene::Camera& camera) {
   const gpu::Context context;
   std::vector<Renderer> renderers;
   for (const Subject subject : kSubjects) {
-    Scene scene;
+    scene::Scene scene;
     scene.mesh = mesh;
     scene.materials.resize(1);
     scene.materials[0].appearance = appearance(subject);
-    if (subject == kAmcPerFragment) scene.switches.tangent_angle = TangentAngle::fragment;
+    if (subject == kAmcPerFragment) scene.switches.tangent_angle = scene::TangentAngle::fragment;
     renderers.emplace_back(scene);
   }
   const std::vector<Mat3> pose{Mat3::Identity()};
-  const View view = frame_object(mesh, camera, pose, 1)[0];
+  const scene::View view = scene::frame_object(mesh, camera, pose, 1)[0];
   const gpu::Framebuffer target(kSide, kSide);
   const auto frame = [&](const Renderer& renderer) {
     gpu::Timer timer;
@@ -104,7 +104,7 @@ void draw(benchmark::State& state, const Mesh& mesh, const Camera& camera) {
 }
 
 void full_screen(benchmark::State& state) {
-  draw(state, sheet(), {.kind = Camera::Kind::view_space});
+  draw(state, sheet(), {.kind = scene::Camera::Kind::view_space});
 }
 
 /// 295 thousand triangles.
@@ -117,10 +117,10 @@ BENCHMARK(dense_mesh)->UseRealTime()->Unit(benchmark::kMillisecond)->MinTime(2);
 
 void first_picture(benchmark::State& state) {
   const test::TemporaryFolder folder;
-  AmcTable table = test::analytic_table(128, 128, 2);
-  table.encoding = AmcEncoding::srgb8;
-  quantise(table);
-  write_amc(folder / "material.ktx2", table);
+  amc::AmcTable table = test::analytic_table(128, 128, 2);
+  table.encoding = amc::AmcEncoding::srgb8;
+  amc::quantise(table);
+  amc::write_amc(folder / "material.ktx2", table);
   const std::string arguments =
       fmt::format("render {} --material {} -o {} --size 1024x1024",
                   (test::examples() / "garment" / "jacket.obj").string(), (folder / "material.ktx2").string(),
@@ -132,4 +132,4 @@ void first_picture(benchmark::State& state) {
 BENCHMARK(first_picture)->Unit(benchmark::kMillisecond)->UseRealTime();
 
 }  // namespace
-}  // namespace sateen
+}  // namespace sateen::render

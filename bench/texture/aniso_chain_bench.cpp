@@ -24,8 +24,8 @@ constexpr int kSize = 4096;
 class Maps {
  public:
   Maps() {
-    ImageRowWriter normal(folder_ / "normal.png", "normal.png", kSize, kSize, 3, RowSamples::u8);
-    ImageRowWriter aniso(folder_ / "aniso.png", "aniso.png", kSize, kSize, 3, RowSamples::u8);
+    io::ImageRowWriter normal(folder_ / "normal.png", "normal.png", kSize, kSize, 3, io::RowSamples::u8);
+    io::ImageRowWriter aniso(folder_ / "aniso.png", "aniso.png", kSize, kSize, 3, io::RowSamples::u8);
     std::vector<float> n(kSize * 3);
     std::vector<float> a(kSize * 3);
     std::uint32_t state = 1;
@@ -33,8 +33,8 @@ class Maps {
       for (int x = 0; x < kSize; ++x) {
         state = state * 1664525u + 1013904223u;
         const double noise = static_cast<double>(state >> 8) / (1 << 24) * 0.04 - 0.02;
-        const LobeTexel t = texel(x, y, noise);
-        const Vec3 c = encode_anisotropy(t.s, AnisotropyEncoding::root);
+        const texture::LobeTexel t = texel(x, y, noise);
+        const Vec3 c = texture::encode_anisotropy(t.s, texture::AnisotropyEncoding::root);
         for (int k = 0; k < 3; ++k) {
           n[static_cast<std::size_t>(x * 3 + k)] = static_cast<float>(t.normal[k] / 2 + 0.5);
           a[static_cast<std::size_t>(x * 3 + k)] = static_cast<float>(c[k]);
@@ -47,17 +47,17 @@ class Maps {
     aniso.close();
   }
 
-  static LobeTexel texel(int x, int y, double noise) {
+  static texture::LobeTexel texel(int x, int y, double noise) {
     const bool over = ((x / 16) + (y / 16)) % 2 == 0;
     const double across = ((over ? y : x) % 16 + 0.5) / 8 - 1;
     const double along = ((over ? x : y) % 16 + 0.5) / 8 - 1;
     Vec3 n(0.4 * along + noise, 0.7 * across - noise, 1);
     if (!over) std::swap(n.x(), n.y());
-    return {n.normalized(), roughness_matrix({0.35 + noise, 0.12, over ? kPi / 2 + noise : noise})};
+    return {n.normalized(), brdf::roughness_matrix({0.35 + noise, 0.12, over ? kPi / 2 + noise : noise})};
   }
 
-  LobeMapFiles files() const {
-    LobeMapFiles files;
+  texture::LobeMapFiles files() const {
+    texture::LobeMapFiles files;
     files.normals = folder_ / "normal.png";
     files.anisotropy = folder_ / "aniso.png";
     return files;
@@ -78,26 +78,27 @@ void report(benchmark::State& state) {
                                                   benchmark::Counter::kIsIterationInvariantRate);
 }
 
-void chain(benchmark::State& state, LobeOutput::Kind kind, MipKernel kernel, Bc7Effort effort) {
+void chain(benchmark::State& state, texture::LobeOutput::Kind kind, texture::MipKernel kernel,
+           texture::Bc7Effort effort) {
   maps();
   for (auto _ : state) {
-    LobeFileSource source(maps().files());
-    LobeOutput output;
+    texture::LobeFileSource source(maps().files());
+    texture::LobeOutput output;
     output.kind = kind;
     output.effort = effort;
     output.zstd_level = 3;
-    ChainOptions options;
+    texture::ChainOptions options;
     options.kernel = kernel;
-    write_lobe_chain(source, maps().folder() / "out.png", options, output);
+    texture::write_lobe_chain(source, maps().folder() / "out.png", options, output);
   }
   report(state);
 }
 
 /// Reads one of the maps and writes files of the sizes of its chain.
 void copy_chain(const fs::path& path, const std::string& name) {
-  ImageRowReader reader(path);
+  io::ImageRowReader reader(path);
   std::vector<float> strip(static_cast<std::size_t>(kSize) * 64 * 3);
-  ImageRowWriter writer(maps().folder() / (name + "_0.png"), name, kSize, kSize, 3, RowSamples::u8);
+  io::ImageRowWriter writer(maps().folder() / (name + "_0.png"), name, kSize, kSize, 3, io::RowSamples::u8);
   for (int y = 0; y < kSize; y += 64) {
     reader.read(strip);
     writer.write(strip);
@@ -105,7 +106,7 @@ void copy_chain(const fs::path& path, const std::string& name) {
   writer.close();
   // Rows of the smaller levels: the same texels, for the same kind of content.
   for (int size = kSize / 2; size >= 1; size /= 2) {
-    ImageRowWriter level(maps().folder() / (name + "_n.png"), name, size, size, 3, RowSamples::u8);
+    io::ImageRowWriter level(maps().folder() / (name + "_n.png"), name, size, size, 3, io::RowSamples::u8);
     for (int y = 0; y < size; ++y) {
       level.write(std::span(strip).subspan(static_cast<std::size_t>(y % 64 * kSize * 3),
                                            static_cast<std::size_t>(size * 3)));
@@ -129,7 +130,7 @@ void io(benchmark::State& state) {
   report(state);
 }
 
-class Memory : public LobeSource {
+class Memory : public texture::LobeSource {
  public:
   Memory() : strip_(static_cast<std::size_t>(kSize) * 64) {
     for (int i = 0; i < kSize * 64; ++i)
@@ -137,29 +138,29 @@ class Memory : public LobeSource {
   }
   int width() const override { return kSize; }
   int height() const override { return kSize; }
-  void read(std::span<LobeTexel> out) override {
+  void read(std::span<texture::LobeTexel> out) override {
     std::copy_n(strip_.begin(), static_cast<std::ptrdiff_t>(out.size()), out.begin());
   }
 
  private:
-  std::vector<LobeTexel> strip_;
+  std::vector<texture::LobeTexel> strip_;
 };
 
-class Nowhere : public LobeSink {
+class Nowhere : public texture::LobeSink {
  public:
-  void write(int level, std::span<const LobeRow> rows) override {
+  void write(int level, std::span<const texture::LobeRow> rows) override {
     benchmark::DoNotOptimize(level);
     benchmark::DoNotOptimize(rows.data());
   }
 };
 
-void filter(benchmark::State& state, MipKernel kernel) {
+void filter(benchmark::State& state, texture::MipKernel kernel) {
   for (auto _ : state) {
     Memory source;
     Nowhere sink;
-    ChainOptions options;
+    texture::ChainOptions options;
     options.kernel = kernel;
-    filter_lobe_chain(source, sink, options);
+    texture::filter_lobe_chain(source, sink, options);
   }
   report(state);
 }
@@ -172,19 +173,23 @@ void filter(benchmark::State& state, MipKernel kernel) {
       ->Iterations(1)
 
 BENCHMARK(io)->Unit(benchmark::kMillisecond)->UseRealTime()->MeasureProcessCPUTime()->Iterations(1);
-BENCHMARK_CAPTURE(filter, box, MipKernel::box)
+BENCHMARK_CAPTURE(filter, box, texture::MipKernel::box)
     ->Unit(benchmark::kMillisecond)
     ->UseRealTime()
     ->MeasureProcessCPUTime()
     ->Iterations(1);
-BENCHMARK_CAPTURE(filter, kaiser, MipKernel::kaiser)
+BENCHMARK_CAPTURE(filter, kaiser, texture::MipKernel::kaiser)
     ->Unit(benchmark::kMillisecond)
     ->UseRealTime()
     ->Iterations(1);
-SATEEN_CHAIN(png8_box, LobeOutput::Kind::png8, MipKernel::box, Bc7Effort::normal);
-SATEEN_CHAIN(png8_kaiser, LobeOutput::Kind::png8, MipKernel::kaiser, Bc7Effort::normal);
-SATEEN_CHAIN(ktx2_plain, LobeOutput::Kind::ktx2, MipKernel::box, Bc7Effort::normal);
-SATEEN_CHAIN(ktx2_bc7_fast, LobeOutput::Kind::ktx2_blocks, MipKernel::box, Bc7Effort::fast);
-SATEEN_CHAIN(ktx2_bc7_normal, LobeOutput::Kind::ktx2_blocks, MipKernel::box, Bc7Effort::normal);
+SATEEN_CHAIN(png8_box, texture::LobeOutput::Kind::png8, texture::MipKernel::box, texture::Bc7Effort::normal);
+SATEEN_CHAIN(png8_kaiser, texture::LobeOutput::Kind::png8, texture::MipKernel::kaiser,
+             texture::Bc7Effort::normal);
+SATEEN_CHAIN(ktx2_plain, texture::LobeOutput::Kind::ktx2, texture::MipKernel::box,
+             texture::Bc7Effort::normal);
+SATEEN_CHAIN(ktx2_bc7_fast, texture::LobeOutput::Kind::ktx2_blocks, texture::MipKernel::box,
+             texture::Bc7Effort::fast);
+SATEEN_CHAIN(ktx2_bc7_normal, texture::LobeOutput::Kind::ktx2_blocks, texture::MipKernel::box,
+             texture::Bc7Effort::normal);
 
 }  // namespace

@@ -42,13 +42,13 @@ Mat2 matrix_of(const Vec3& c) {
 }
 
 std::vector<Encoding> encodings() {
-  const auto library = [](AnisotropyEncoding e) {
-    return Encoding{e == AnisotropyEncoding::root ? "root" : "correlation",
-                    [e](const Mat2& s) { return encode_anisotropy(s, e); },
-                    [e](const Vec3& c) { return decode_anisotropy(c, e); }};
+  const auto library = [](texture::AnisotropyEncoding e) {
+    return Encoding{e == texture::AnisotropyEncoding::root ? "root" : "correlation",
+                    [e](const Mat2& s) { return texture::encode_anisotropy(s, e); },
+                    [e](const Vec3& c) { return texture::decode_anisotropy(c, e); }};
   };
-  return {library(AnisotropyEncoding::correlation),
-          library(AnisotropyEncoding::root),
+  return {library(texture::AnisotropyEncoding::correlation),
+          library(texture::AnisotropyEncoding::root),
           {"matrix", channels_of, matrix_of},
           {"fourth root", [](const Mat2& s) { return channels_of(root_of(root_of(s))); },
            [](const Vec3& c) {
@@ -76,33 +76,33 @@ Vec3 quantised(const Vec3& c) {
 enum class Scene { smooth, warp_and_weft, random };
 
 /// Relative radiance error of each encoding, and last of interpolating the matrix without quantisation.
-std::vector<double> interpolation_errors(const std::vector<Encoding>& all, const AnisotropicRoughness& lobe,
-                                         Scene scene) {
+std::vector<double> interpolation_errors(const std::vector<Encoding>& all,
+                                         const brdf::AnisotropicRoughness& lobe, Scene scene) {
   std::mt19937 generator(1);
   const auto uniform = [&] { return std::uniform_real_distribution<double>(0, 1)(generator); };
   std::vector<double> squared(all.size() + 1);
   double reference = 0;
   for (int trial = 0; trial < 300; ++trial) {
     const double base = uniform() * kPi;
-    std::array<LobeTexel, 4> corner;
+    std::array<texture::LobeTexel, 4> corner;
     for (int j = 0; j < 4; ++j) {
-      AnisotropicRoughness a = lobe;
+      brdf::AnisotropicRoughness a = lobe;
       a.azimuth = scene == Scene::smooth   ? base + (uniform() - 0.5) * 0.5
                   : scene == Scene::random ? uniform() * kPi
                                            : base + (j % 2) * kPi / 2;
-      corner[static_cast<std::size_t>(j)].s = roughness_matrix(a);
+      corner[static_cast<std::size_t>(j)].s = brdf::roughness_matrix(a);
     }
     const double u = uniform();
     const double v = uniform();
     const std::array<double, 4> weight{(1 - u) * (1 - v), u * (1 - v), (1 - u) * v, u * v};
-    std::vector<LobeTexel> results(all.size() + 1);
+    std::vector<texture::LobeTexel> results(all.size() + 1);
     Mat2 linear = Mat2::Zero();
     for (std::size_t j = 0; j < 4; ++j) linear += weight[j] * corner[j].s;
-    results.back().s = guarded(linear);
+    results.back().s = texture::guarded(linear);
     for (std::size_t e = 0; e < all.size(); ++e) {
       Vec3 c = Vec3::Zero();
       for (std::size_t j = 0; j < 4; ++j) c += weight[j] * quantised(all[e].encode(corner[j].s));
-      results[e].s = guarded(all[e].decode(c));
+      results[e].s = texture::guarded(all[e].decode(c));
     }
     for (int i = 0; i < 48; ++i) {
       const double sine = std::sqrt(0.98 * (i + 0.5) / 48);
@@ -124,28 +124,29 @@ std::vector<double> interpolation_errors(const std::vector<Encoding>& all, const
 }
 
 /// Mean relative error of both alphas of a map whose direction turns, after 8 bits, or after BC7.
-double alpha_error(const Encoding& encoding, const AnisotropicRoughness& lobe, bool blocks) {
+double alpha_error(const Encoding& encoding, const brdf::AnisotropicRoughness& lobe, bool blocks) {
   constexpr int kSize = 128;
   std::vector<std::uint8_t> rgba;
-  std::vector<AnisotropicRoughness> truth;
+  std::vector<brdf::AnisotropicRoughness> truth;
   for (int y = 0; y < kSize; ++y) {
     for (int x = 0; x < kSize; ++x) {
       truth.push_back({lobe.alpha_t, lobe.alpha_b, 0.03 * x + 0.5 * std::sin(0.05 * y)});
-      const Vec3 c = quantised(encoding.encode(roughness_matrix(truth.back())));
+      const Vec3 c = quantised(encoding.encode(brdf::roughness_matrix(truth.back())));
       for (int k = 0; k < 3; ++k) rgba.push_back(static_cast<std::uint8_t>(std::lround(c[k] * 255)));
       rgba.push_back(255);
     }
   }
   if (blocks) {
     const auto dds = std::filesystem::temp_directory_path() / "sateen_aniso_encoding_error.dds";
-    rgba = test::decode_blocks(BlockFormat::bc7, compress_blocks(BlockFormat::bc7, rgba, kSize, kSize), kSize,
+    rgba = test::decode_blocks(texture::BlockFormat::bc7,
+                               texture::compress_blocks(texture::BlockFormat::bc7, rgba, kSize, kSize), kSize,
                                kSize, dds);
     std::filesystem::remove(dds);
   }
   double error = 0;
   for (std::size_t i = 0; i < truth.size(); ++i) {
-    const AnisotropicRoughness back =
-        roughness_from_matrix(encoding.decode(Vec3(rgba[i * 4], rgba[i * 4 + 1], rgba[i * 4 + 2]) / 255));
+    const brdf::AnisotropicRoughness back = brdf::roughness_from_matrix(
+        encoding.decode(Vec3(rgba[i * 4], rgba[i * 4 + 1], rgba[i * 4 + 2]) / 255));
     error += (std::abs(back.alpha_t / lobe.alpha_t - 1) + std::abs(back.alpha_b / lobe.alpha_b - 1)) / 2;
   }
   return error / static_cast<double>(truth.size());
@@ -155,7 +156,7 @@ double alpha_error(const Encoding& encoding, const AnisotropicRoughness& lobe, b
 
 int main() {
   const std::vector<Encoding> all = encodings();
-  const std::array<AnisotropicRoughness, 4> lobes{
+  const std::array<brdf::AnisotropicRoughness, 4> lobes{
       {{0.3, 0.1, 0}, {0.29, 0.04, 0}, {0.87, 0.1, 0}, {0.87, 0.04, 0}}};
   fmt::print("{:44}", "");
   for (const Encoding& e : all) fmt::print("{:>13}", e.name);
@@ -168,13 +169,13 @@ int main() {
   for (const auto& [scene, name] :
        {std::pair{Scene::smooth, "angles within 14 degrees"},
         std::pair{Scene::warp_and_weft, "warp beside weft"}, std::pair{Scene::random, "random angles"}}) {
-    for (const AnisotropicRoughness& lobe : lobes) {
+    for (const brdf::AnisotropicRoughness& lobe : lobes) {
       row(fmt::format("{}, {} and {}", name, lobe.alpha_t, lobe.alpha_b),
           interpolation_errors(all, lobe, scene));
     }
   }
   for (const bool blocks : {false, true}) {
-    for (const AnisotropicRoughness& lobe : lobes) {
+    for (const brdf::AnisotropicRoughness& lobe : lobes) {
       std::vector<double> errors;
       for (const Encoding& e : all) errors.push_back(alpha_error(e, lobe, blocks));
       row(fmt::format("alphas {} and {} after {}", lobe.alpha_t, lobe.alpha_b, blocks ? "BC7" : "8 bits"),

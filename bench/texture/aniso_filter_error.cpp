@@ -23,17 +23,26 @@ using namespace sateen;
 
 struct Method {
   const char* name;
-  FilterOptions options;
+  texture::FilterOptions options;
 };
 
 const std::array<Method, 6> kMethods{
-    {{"naive", {FilterMethod::naive, NormalSolver::eigen, AnisotropyEncoding::correlation, false}},
-     {"lean", {FilterMethod::lean, NormalSolver::eigen, AnisotropyEncoding::root, false}},
-     {"sggx", {FilterMethod::sggx, NormalSolver::eigen, AnisotropyEncoding::root, false}},
+    {{"naive",
+      {texture::FilterMethod::naive, texture::NormalSolver::eigen, texture::AnisotropyEncoding::correlation,
+       false}},
+     {"lean",
+      {texture::FilterMethod::lean, texture::NormalSolver::eigen, texture::AnisotropyEncoding::root, false}},
+     {"sggx",
+      {texture::FilterMethod::sggx, texture::NormalSolver::eigen, texture::AnisotropyEncoding::root, false}},
      {"sggx, power it.",
-      {FilterMethod::sggx, NormalSolver::power_iteration, AnisotropyEncoding::root, false}},
-     {"sggx-variance", {FilterMethod::sggx_variance, NormalSolver::eigen, AnisotropyEncoding::root, false}},
-     {"... isotropic", {FilterMethod::sggx_variance, NormalSolver::eigen, AnisotropyEncoding::root, true}}}};
+      {texture::FilterMethod::sggx, texture::NormalSolver::power_iteration, texture::AnisotropyEncoding::root,
+       false}},
+     {"sggx-variance",
+      {texture::FilterMethod::sggx_variance, texture::NormalSolver::eigen, texture::AnisotropyEncoding::root,
+       false}},
+     {"... isotropic",
+      {texture::FilterMethod::sggx_variance, texture::NormalSolver::eigen, texture::AnisotropyEncoding::root,
+       true}}}};
 
 // The slides' well-behaved pair and its neighbours, then the two pairs they call a limit.
 constexpr std::array<std::array<double, 2>, 5> kLobes{
@@ -65,29 +74,31 @@ std::vector<Directions> directions() {
 }
 
 /// At most 16 x 16 texels spread over a block.
-std::vector<LobeTexel> texels_of(const Image& map, int x0, int y0, int size, const Mat2& s) {
-  std::vector<LobeTexel> texels;
+std::vector<texture::LobeTexel> texels_of(const Image& map, int x0, int y0, int size, const Mat2& s) {
+  std::vector<texture::LobeTexel> texels;
   const int step = std::max(1, size / 16);
   for (int y = y0; y < y0 + size; y += step) {
     for (int x = x0; x < x0 + size; x += step) {
       bool repaired = false;
-      texels.push_back({decode_normal(map.pixel(x, y), {}, repaired), s});
+      texels.push_back({texture::decode_normal(map.pixel(x, y), {}, repaired), s});
     }
   }
   return texels;
 }
 
-LobeTexel filtered(const std::vector<LobeTexel>& texels, const FilterOptions& options) {
-  std::array<float, kMoments> mean{};
-  for (const LobeTexel& texel : texels) {
-    std::array<float, kMoments> moments{};
-    pack_moments(texel, options, moments);
-    for (std::size_t i = 0; i < kMoments; ++i) mean[i] += moments[i] / static_cast<float>(texels.size());
+texture::LobeTexel filtered(const std::vector<texture::LobeTexel>& texels,
+                            const texture::FilterOptions& options) {
+  std::array<float, texture::kMoments> mean{};
+  for (const texture::LobeTexel& texel : texels) {
+    std::array<float, texture::kMoments> moments{};
+    texture::pack_moments(texel, options, moments);
+    for (std::size_t i = 0; i < texture::kMoments; ++i)
+      mean[i] += moments[i] / static_cast<float>(texels.size());
   }
-  return unpack_moments(mean, options);
+  return texture::unpack_moments(mean, options);
 }
 
-Errors measure(const Image& map, const AnisotropicRoughness& lobe) {
+Errors measure(const Image& map, const brdf::AnisotropicRoughness& lobe) {
   static const std::vector<Directions> kDirections = directions();
   Errors mean{};
   for (int mip = 1; mip <= kMips; ++mip) {
@@ -98,12 +109,12 @@ Errors measure(const Image& map, const AnisotropicRoughness& lobe) {
     for (int block = 0; block < kBlocks; ++block) {
       const int x = static_cast<int>(generator() % static_cast<unsigned>(map.width / size)) * size;
       const int y = static_cast<int>(generator() % static_cast<unsigned>(map.height / size)) * size;
-      const auto texels = texels_of(map, x, y, size, roughness_matrix(lobe));
-      std::array<LobeTexel, kMethods.size()> results;
+      const auto texels = texels_of(map, x, y, size, brdf::roughness_matrix(lobe));
+      std::array<texture::LobeTexel, kMethods.size()> results;
       for (std::size_t m = 0; m < kMethods.size(); ++m) results[m] = filtered(texels, kMethods[m].options);
       for (const auto& [light, view] : kDirections) {
         double truth = 0;
-        for (const LobeTexel& texel : texels) truth += lobe_radiance(texel, light, view);
+        for (const texture::LobeTexel& texel : texels) truth += lobe_radiance(texel, light, view);
         truth /= static_cast<double>(texels.size());
         reference += truth * truth;
         for (std::size_t m = 0; m < kMethods.size(); ++m) {
@@ -132,7 +143,7 @@ int main(int argc, char** argv) {
     std::array<Errors, kLobes.size()> by_lobe{};
     for (int i = 1; i < argc; ++i) {
       const std::filesystem::path path = argv[i];
-      const Image map = read_data(path);
+      const Image map = io::read_data(path);
       Errors of_map{};
       for (std::size_t lobe = 0; lobe < kLobes.size(); ++lobe) {
         const Errors errors = measure(map, {kLobes[lobe][0], kLobes[lobe][1], 0.5});

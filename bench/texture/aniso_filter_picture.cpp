@@ -29,7 +29,7 @@ struct Point {
   Mat3 to_local;
 };
 
-double shade(const LobeTexel& texel, const Point& point) {
+double shade(const texture::LobeTexel& texel, const Point& point) {
   static const std::array<Vec3, 2> kLamps{Vec3(-0.5, 0.6, 0.8).normalized(),
                                           Vec3(0.8, -0.1, 0.5).normalized()};
   double sum = 0;
@@ -39,16 +39,18 @@ double shade(const LobeTexel& texel, const Point& point) {
 }
 
 void draw(const Image& map, const std::filesystem::path& output) {
-  const Mat2 s = roughness_matrix({0.35, 0.12, 0});
+  const Mat2 s = brdf::roughness_matrix({0.35, 0.12, 0});
   const int blocks_u = map.width / kBlock;
   const int blocks_v = map.height / kBlock;
   if (blocks_u < 1 || blocks_v < 1) throw Error("the normal map is smaller than 16 x 16");
-  const std::array<FilterOptions, 5> methods{
-      {{FilterMethod::naive, NormalSolver::eigen, AnisotropyEncoding::root, false},
-       {FilterMethod::lean, NormalSolver::eigen, AnisotropyEncoding::root, false},
-       {FilterMethod::sggx, NormalSolver::eigen, AnisotropyEncoding::root, false},
-       {FilterMethod::sggx_variance, NormalSolver::eigen, AnisotropyEncoding::root, false},
-       {FilterMethod::sggx_variance, NormalSolver::eigen, AnisotropyEncoding::root, true}}};
+  const std::array<texture::FilterOptions, 5> methods{
+      {{texture::FilterMethod::naive, texture::NormalSolver::eigen, texture::AnisotropyEncoding::root, false},
+       {texture::FilterMethod::lean, texture::NormalSolver::eigen, texture::AnisotropyEncoding::root, false},
+       {texture::FilterMethod::sggx, texture::NormalSolver::eigen, texture::AnisotropyEncoding::root, false},
+       {texture::FilterMethod::sggx_variance, texture::NormalSolver::eigen, texture::AnisotropyEncoding::root,
+        false},
+       {texture::FilterMethod::sggx_variance, texture::NormalSolver::eigen, texture::AnisotropyEncoding::root,
+        true}}};
   Image picture(kPanel * 3, kPanel * 2, 1);
   parallel_for(kPanel, [&](int y) {
     for (int x = 0; x < kPanel; ++x) {
@@ -58,33 +60,34 @@ void draw(const Image& map, const std::filesystem::path& output) {
       const Vec3 t = Vec3::UnitY().cross(n).normalized();
       Point point;
       point.to_local << t.transpose(), n.cross(t).transpose(), n.transpose();
-      std::vector<LobeTexel> texels;
+      std::vector<texture::LobeTexel> texels;
       for (int i = 0; i < kBlock * kBlock; ++i) {
         bool repaired = false;
-        texels.push_back(
-            {decode_normal(map.pixel(x % blocks_u * kBlock + i % kBlock, y % blocks_v * kBlock + i / kBlock),
-                           {}, repaired),
-             s});
+        texels.push_back({texture::decode_normal(map.pixel(x % blocks_u * kBlock + i % kBlock,
+                                                           y % blocks_v * kBlock + i / kBlock),
+                                                 {}, repaired),
+                          s});
       }
       double truth = 0;
-      for (const LobeTexel& texel : texels) truth += shade(texel, point) / static_cast<double>(texels.size());
+      for (const texture::LobeTexel& texel : texels)
+        truth += shade(texel, point) / static_cast<double>(texels.size());
       picture.at(x, y, 0) = static_cast<float>(truth);
       for (std::size_t m = 0; m < methods.size(); ++m) {
-        std::array<float, kMoments> mean{};
-        for (const LobeTexel& texel : texels) {
-          std::array<float, kMoments> moments{};
-          pack_moments(texel, methods[m], moments);
-          for (std::size_t k = 0; k < kMoments; ++k)
+        std::array<float, texture::kMoments> mean{};
+        for (const texture::LobeTexel& texel : texels) {
+          std::array<float, texture::kMoments> moments{};
+          texture::pack_moments(texel, methods[m], moments);
+          for (std::size_t k = 0; k < texture::kMoments; ++k)
             mean[k] += moments[k] / static_cast<float>(texels.size());
         }
         const int panel = static_cast<int>(m) + 1;
         picture.at(panel % 3 * kPanel + x, panel / 3 * kPanel + y, 0) =
-            static_cast<float>(shade(unpack_moments(mean, methods[m]), point));
+            static_cast<float>(shade(texture::unpack_moments(mean, methods[m]), point));
       }
     }
   });
   for (float& v : picture.data) v *= 0.35f;
-  write_image(output, picture);
+  io::write_image(output, picture);
 }
 
 }  // namespace
@@ -95,7 +98,7 @@ int main(int argc, char** argv) {
     return 2;
   }
   try {
-    draw(read_data(argv[1]), argv[2]);
+    draw(io::read_data(argv[1]), argv[2]);
   } catch (const Error& error) {
     fmt::print(stderr, "aniso_filter_picture: {}\n", error.what());
     return 1;

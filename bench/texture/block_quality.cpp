@@ -22,19 +22,19 @@ using namespace sateen;
 
 struct Encoder {
   const char* name;
-  BlockFormat format;
-  Bc7Effort effort;
+  texture::BlockFormat format;
+  texture::Bc7Effort effort;
   std::size_t channels;
 };
 
-constexpr Encoder kEncoders[] = {{"bc1", BlockFormat::bc1, {}, 3},
-                                 {"bc5", BlockFormat::bc5, {}, 2},
-                                 {"bc7 fast", BlockFormat::bc7, Bc7Effort::fast, 3},
-                                 {"bc7 normal", BlockFormat::bc7, Bc7Effort::normal, 3},
-                                 {"bc7 best", BlockFormat::bc7, Bc7Effort::best, 3}};
+constexpr Encoder kEncoders[] = {{"bc1", texture::BlockFormat::bc1, {}, 3},
+                                 {"bc5", texture::BlockFormat::bc5, {}, 2},
+                                 {"bc7 fast", texture::BlockFormat::bc7, texture::Bc7Effort::fast, 3},
+                                 {"bc7 normal", texture::BlockFormat::bc7, texture::Bc7Effort::normal, 3},
+                                 {"bc7 best", texture::BlockFormat::bc7, texture::Bc7Effort::best, 3}};
 
 void measure(const std::filesystem::path& path) {
-  const Image image = read_data(path);
+  const Image image = io::read_data(path);
   std::vector<std::uint8_t> rgba(static_cast<std::size_t>(image.width) *
                                  static_cast<std::size_t>(image.height) * 4);
   for (int y = 0; y < image.height; ++y) {
@@ -53,10 +53,10 @@ void measure(const std::filesystem::path& path) {
   fmt::print("{:34}", path.filename().string().substr(0, 34));
   const auto dds = std::filesystem::temp_directory_path() / "sateen_block_quality.dds";
   for (const Encoder& encoder : kEncoders) {
-    Bc7Options options;
+    texture::Bc7Options options;
     options.effort = encoder.effort;
     const std::clock_t start = std::clock();
-    const auto blocks = compress_blocks(encoder.format, rgba, image.width, image.height, options);
+    const auto blocks = texture::compress_blocks(encoder.format, rgba, image.width, image.height, options);
     const double seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
     const auto decoded = test::decode_blocks(encoder.format, blocks, image.width, image.height, dds);
     double sum = 0;

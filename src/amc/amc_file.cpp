@@ -13,7 +13,7 @@
 #include "sateen/io/image.h"
 #include "sateen/io/ktx2.h"
 
-namespace sateen {
+namespace sateen::amc {
 namespace {
 
 namespace fs = std::filesystem;
@@ -26,7 +26,7 @@ constexpr const char* kProvenancePrefix = "sateen.provenance.";
   throw Error(fmt::format("{}: {}", path.string(), what));
 }
 
-int metadata_number(const fs::path& path, const Ktx2& texture, const std::string& key) {
+int metadata_number(const fs::path& path, const io::Ktx2& texture, const std::string& key) {
   const auto found = texture.metadata.find(key);
   if (found == texture.metadata.end()) fail(path, fmt::format("the metadata lack '{}'", key));
   int value = 0;
@@ -56,8 +56,9 @@ void check_texels(const fs::path& path, const AmcTable& table) {
 }
 
 void write_ktx2_table(const fs::path& path, const AmcTable& table) {
-  Ktx2 texture;
-  texture.format = table.encoding == AmcEncoding::srgb8 ? VkFormat::rgba8_srgb : VkFormat::rgba16_sfloat;
+  io::Ktx2 texture;
+  texture.format =
+      table.encoding == AmcEncoding::srgb8 ? io::VkFormat::rgba8_srgb : io::VkFormat::rgba16_sfloat;
   texture.width = texture.height = static_cast<std::uint32_t>(table.size);
   texture.depth = static_cast<std::uint32_t>(table.slices);
   texture.levels = {encoded_texels(table)};
@@ -67,11 +68,11 @@ void write_ktx2_table(const fs::path& path, const AmcTable& table) {
                       {"sateen.symmetry", std::to_string(table.symmetry)},
                       {"sateen.isotropic", table.isotropic ? "true" : "false"}};
   for (const auto& [key, value] : table.provenance) texture.metadata[kProvenancePrefix + key] = value;
-  write_ktx2(path, texture, kZstdLevel);
+  io::write_ktx2(path, texture, kZstdLevel);
 }
 
 AmcTable read_ktx2_table(const fs::path& path) {
-  const Ktx2 texture = read_ktx2(path);
+  const io::Ktx2 texture = io::read_ktx2(path);
   const auto kind = texture.metadata.find("sateen.kind");
   if (kind == texture.metadata.end() || kind->second != "amc") {
     fail(path, "is a KTX2 texture but no Anisotropic MatCap (its metadata lack sateen.kind = amc)");
@@ -81,12 +82,12 @@ AmcTable read_ktx2_table(const fs::path& path) {
     fail(path, fmt::format("an AMC is a 3D texture with a square base; this is {} x {} x {}", texture.width,
                            texture.height, texture.depth));
   }
-  if (texture.format != VkFormat::rgba8_srgb && texture.format != VkFormat::rgba16_sfloat) {
+  if (texture.format != io::VkFormat::rgba8_srgb && texture.format != io::VkFormat::rgba16_sfloat) {
     fail(path, "an AMC's texels are RGBA8 sRGB or RGBA half float; this file's are neither");
   }
   AmcTable table(static_cast<int>(texture.width), static_cast<int>(texture.depth),
                  metadata_number(path, texture, "sateen.symmetry"));
-  table.encoding = texture.format == VkFormat::rgba8_srgb ? AmcEncoding::srgb8 : AmcEncoding::half;
+  table.encoding = texture.format == io::VkFormat::rgba8_srgb ? AmcEncoding::srgb8 : AmcEncoding::half;
   const auto isotropic = texture.metadata.find("sateen.isotropic");
   table.isotropic = isotropic != texture.metadata.end() && isotropic->second == "true";
   for (const auto& [key, value] : texture.metadata) {
@@ -107,7 +108,7 @@ void write_folder(const fs::path& folder, const AmcTable& table) {
   fs::create_directories(folder, code);
   if (code) fail(folder, "cannot be made: " + code.message());
   parallel_for(table.slices,
-               [&](int f) { write_image(slice_path(folder, f, table.encoding), slice_image(table, f)); });
+               [&](int f) { io::write_image(slice_path(folder, f, table.encoding), slice_image(table, f)); });
   const json description = {{"kind", "amc"},
                             {"version", kAmcFileVersion},
                             {"size", table.size},
@@ -116,14 +117,14 @@ void write_folder(const fs::path& folder, const AmcTable& table) {
                             {"isotropic", table.isotropic},
                             {"encoding", table.encoding == AmcEncoding::srgb8 ? "srgb8" : "half"},
                             {"provenance", table.provenance}};
-  write_text(folder / "amc.json", description.dump(2) + "\n");
+  io::write_text(folder / "amc.json", description.dump(2) + "\n");
 }
 
 AmcTable read_folder(const fs::path& folder) {
   const fs::path file = folder / "amc.json";
   AmcTable table;
   try {
-    const json description = json::parse(read_text(file));
+    const json description = json::parse(io::read_text(file));
     if (description.at("kind") != "amc") fail(file, "'kind' is not 'amc'");
     check_version(file, description.at("version"));
     table = AmcTable(description.at("size"), description.at("slices"), description.at("symmetry"));
@@ -137,7 +138,7 @@ AmcTable read_folder(const fs::path& folder) {
   }
   parallel_for(table.slices, [&](int f) {
     const fs::path path = slice_path(folder, f, table.encoding);
-    const Image image = read_image(path);
+    const Image image = io::read_image(path);
     if (image.width != table.size || image.height != table.size) {
       fail(path, fmt::format("is {} x {} pixels, the AMC's slices are {} x {}", image.width, image.height,
                              table.size, table.size));
@@ -151,7 +152,7 @@ AmcTable read_folder(const fs::path& folder) {
 }  // namespace
 
 void write_amc(const fs::path& path, const AmcTable& table) {
-  if (extension_of(path) == ".ktx2") {
+  if (io::extension_of(path) == ".ktx2") {
     write_ktx2_table(path, table);
   } else if (!path.has_extension()) {
     write_folder(path, table);
@@ -164,4 +165,4 @@ AmcTable read_amc(const fs::path& path) {
   return fs::is_directory(path) ? read_folder(path) : read_ktx2_table(path);
 }
 
-}  // namespace sateen
+}  // namespace sateen::amc

@@ -5,7 +5,7 @@
 
 #include "sateen/amc/table.h"
 
-namespace sateen {
+namespace sateen::amc {
 
 /// Version of the conventions an AMC file follows; higher ones are refused.
 inline constexpr int kAmcFileVersion = 1;
@@ -20,4 +20,4 @@ void write_amc(const std::filesystem::path& path, const AmcTable& table);
 /// Reads what write_amc writes. Throws Error naming the file for anything else.
 AmcTable read_amc(const std::filesystem::path& path);
 
-}  // namespace sateen
+}  // namespace sateen::amc

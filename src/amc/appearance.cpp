@@ -3,13 +3,13 @@
 
 #include "sateen/amc/lookup.h"
 
-namespace sateen {
+namespace sateen::amc {
 
-Vec3 AmcAppearance::evaluate(const Surface& surface) const {
+Vec3 AmcAppearance::evaluate(const appearance::Surface& surface) const {
   return surface.occlusion * lookup(table_, surface.eye_normal, surface.tangent_angle);
 }
 
-ShaderBinding AmcAppearance::shader() const {
+appearance::ShaderBinding AmcAppearance::shader() const {
   auto texture = std::make_shared<TextureData>();
   texture->shape = TextureData::Shape::volume_3d;
   texture->format =
@@ -25,4 +25,4 @@ ShaderBinding AmcAppearance::shader() const {
           .textures = {{"amc_table", texture}}};
 }
 
-}  // namespace sateen
+}  // namespace sateen::amc

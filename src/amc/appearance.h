@@ -2,18 +2,18 @@
 #pragma once
 
 #include "sateen/amc/table.h"
-#include "sateen/core/appearance.h"
+#include "sateen/appearance/appearance.h"
 
-namespace sateen {
+namespace sateen::amc {
 
 /// Shows an AMC: one trilinear fetch at the eye-frame normal and the tangent angle, times occlusion (sections
 /// 6 and 6.1).
-class AmcAppearance final : public Appearance {
+class AmcAppearance final : public appearance::Appearance {
  public:
   explicit AmcAppearance(AmcTable table) : table_(std::move(table)) {}
 
-  Vec3 evaluate(const Surface& surface) const override;
-  ShaderBinding shader() const override;
+  Vec3 evaluate(const appearance::Surface& surface) const override;
+  appearance::ShaderBinding shader() const override;
   Needs needs() const override { return {.tangents = !table_.isotropic}; }
   int tangent_symmetry() const override { return table_.symmetry; }
   const AmcTable& table() const { return table_; }
@@ -22,4 +22,4 @@ class AmcAppearance final : public Appearance {
   AmcTable table_;
 };
 
-}  // namespace sateen
+}  // namespace sateen::amc

@@ -14,12 +14,12 @@
 #include "sateen/core/parallel.h"
 #include "sateen/io/image.h"
 
-namespace sateen {
+namespace sateen::amc {
 namespace {
 
 namespace fs = std::filesystem;
 
-void check_square(const fs::path& file, const ImageInfo& info, const LoadFramesOptions& options) {
+void check_square(const fs::path& file, const io::ImageInfo& info, const LoadFramesOptions& options) {
   if (options.crop || info.width == info.height) return;
   throw Error(
       fmt::format("{}: is {} x {} pixels; rectified frames are square and just hold the sphere. Give --crop "
@@ -50,12 +50,12 @@ LoadedFrames load_frames(std::span<const fs::path> files, const LoadFramesOption
     Loaded& frame = loaded[static_cast<std::size_t>(i)];
     const fs::path& file = files[static_cast<std::size_t>(i)];
     try {
-      const ImageInfo info = read_image_info(file);
+      const io::ImageInfo info = io::read_image_info(file);
       frame.floating = info.floating;
       frame.width = info.width;
       frame.height = info.height;
       check_square(file, info, options);
-      Image image = read_image(file, {.region = options.crop});
+      Image image = io::read_image(file, {.region = options.crop});
       frame.image = with_channels(resized_disc(std::move(image), options.size), 3);
       // Ringing of the photograph's own filters can go below black; light cannot.
       for (float& v : frame.image.data) v = std::max(v, 0.0f);
@@ -122,4 +122,4 @@ AmcTable build_amc(std::span<const AmcFrame> frames, const SymmetryReport& repor
   return table;
 }
 
-}  // namespace sateen
+}  // namespace sateen::amc

@@ -12,7 +12,7 @@
 #include "sateen/amc/table.h"
 #include "sateen/core/progress.h"
 
-namespace sateen {
+namespace sateen::amc {
 
 struct LoadFramesOptions {
   int size = 128;                 ///< S: frames are area-filtered to this
@@ -48,4 +48,4 @@ struct BuildAmcOptions {
 AmcTable build_amc(std::span<const AmcFrame> frames, const SymmetryReport& report,
                    const BuildAmcOptions& options);
 
-}  // namespace sateen
+}  // namespace sateen::amc

@@ -6,7 +6,7 @@
 
 #include "sateen/core/direction.h"
 
-namespace sateen {
+namespace sateen::amc {
 namespace {
 
 /// Two neighbouring texels along an axis and how far the sample lies towards the second.
@@ -48,4 +48,4 @@ Vec3 lookup(const AmcTable& table, const Vec3& normal, const Vec3& tangent) {
   return lookup(table, normal, sateen::tangent_angle(tangent));
 }
 
-}  // namespace sateen
+}  // namespace sateen::amc

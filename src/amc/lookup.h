@@ -3,7 +3,7 @@
 
 #include "sateen/amc/table.h"
 
-namespace sateen {
+namespace sateen::amc {
 
 /// The colour for a unit normal (eye frame, z towards the eye) and a tangent angle k in turns (any real
 /// number): trilinear, clamped in the normal, cyclic in k, exact at texel centres. The arithmetic is what
@@ -13,4 +13,4 @@ Vec3 lookup(const AmcTable& table, const Vec3& normal, double tangent_angle);
 /// The same for a tangent vector of any length; its picture-plane direction counts (equation 3).
 Vec3 lookup(const AmcTable& table, const Vec3& normal, const Vec3& tangent);
 
-}  // namespace sateen
+}  // namespace sateen::amc

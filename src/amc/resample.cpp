@@ -6,7 +6,7 @@
 
 #include "sateen/core/direction.h"
 
-namespace sateen {
+namespace sateen::amc {
 namespace {
 
 /// Angle from a to b going up, in [0, 1).
@@ -76,4 +76,4 @@ FrameWeights cyclic_weights(std::span<const double> angles, double angle, double
   return weights;
 }
 
-}  // namespace sateen
+}  // namespace sateen::amc

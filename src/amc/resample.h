@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-namespace sateen {
+namespace sateen::amc {
 
 /// A frame's index and its share in a resampled value; shares sum to 1.
 using FrameWeights = std::vector<std::pair<int, double>>;
@@ -16,4 +16,4 @@ using FrameWeights = std::vector<std::pair<int, double>>;
 /// `angle` is taken alone if frames are no denser than slices.
 FrameWeights cyclic_weights(std::span<const double> angles, double angle, double spacing);
 
-}  // namespace sateen
+}  // namespace sateen::amc

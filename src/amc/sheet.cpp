@@ -9,7 +9,7 @@
 
 #include "sateen/core/direction.h"
 
-namespace sateen {
+namespace sateen::amc {
 namespace {
 
 constexpr int kTile = 160;
@@ -78,4 +78,4 @@ Image contact_sheet(const AmcTable& table, int columns, int rows) {
   return sheet;
 }
 
-}  // namespace sateen
+}  // namespace sateen::amc

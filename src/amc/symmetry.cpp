@@ -10,7 +10,7 @@
 #include "sateen/core/error.h"
 #include "sateen/core/parallel.h"
 
-namespace sateen {
+namespace sateen::amc {
 namespace {
 
 std::vector<double> angles_of(std::span<const AmcFrame> frames) {
@@ -148,4 +148,4 @@ SymmetryReport analyse_symmetry(std::span<const AmcFrame> frames, double thresho
   return report;
 }
 
-}  // namespace sateen
+}  // namespace sateen::amc

@@ -6,7 +6,7 @@
 
 #include "sateen/core/image.h"
 
-namespace sateen {
+namespace sateen::amc {
 
 /// One picture of the turning sphere: size x size, RGB, linear, filled from the rim; `angle` is the tangent's
 /// direction in the picture in turns, counter-clockwise from +x.
@@ -43,4 +43,4 @@ SymmetryReport analyse_symmetry(std::span<const AmcFrame> frames,
 /// The rms change, as a share of `peak`, that averaging the frames with their `symmetry` equivalents makes.
 double noise_removed_by(std::span<const AmcFrame> frames, int symmetry, double peak);
 
-}  // namespace sateen
+}  // namespace sateen::amc

@@ -12,7 +12,7 @@
 #include "sateen/core/error.h"
 #include "sateen/core/parallel.h"
 
-namespace sateen {
+namespace sateen::amc {
 namespace {
 
 constexpr int kMaxSize = 2048;  // what OpenGL implementations guarantee for 3D textures in practice
@@ -126,4 +126,4 @@ void set_encoded_texels(AmcTable& table, const std::vector<std::byte>& bytes) {
   }
 }
 
-}  // namespace sateen
+}  // namespace sateen::amc

@@ -9,7 +9,7 @@
 #include "sateen/core/image.h"
 #include "sateen/core/vector.h"
 
-namespace sateen {
+namespace sateen::amc {
 
 /// How an AMC's texels are stored in files and on the GPU. In memory they are always linear halves.
 enum class AmcEncoding {
@@ -64,4 +64,4 @@ void quantise(AmcTable& table);
 std::vector<std::byte> encoded_texels(const AmcTable& table);
 void set_encoded_texels(AmcTable& table, const std::vector<std::byte>& bytes);
 
-}  // namespace sateen
+}  // namespace sateen::amc

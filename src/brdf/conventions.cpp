@@ -8,7 +8,7 @@
 #include "sateen/brdf/fuzz_integrals.h"
 #include "sateen/core/direction.h"
 
-namespace sateen {
+namespace sateen::brdf {
 
 namespace {
 
@@ -150,4 +150,4 @@ SheenParameters to_sheen(const FuzzParameters& fuzz) {
   return {fuzz.colour * strength, roughness};
 }
 
-}  // namespace sateen
+}  // namespace sateen::brdf

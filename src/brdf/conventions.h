@@ -4,7 +4,7 @@
 #include "sateen/brdf/fuzz.h"
 #include "sateen/brdf/ggx.h"
 
-namespace sateen {
+namespace sateen::brdf {
 
 // How other systems write an anisotropic roughness and a sheen, in and out. Inside there are two alphas and
 // an axis (AnisotropicRoughness); everywhere below
@@ -76,4 +76,4 @@ struct SheenParameters {
 FuzzParameters from_sheen(const SheenParameters& sheen);
 SheenParameters to_sheen(const FuzzParameters& fuzz);
 
-}  // namespace sateen
+}  // namespace sateen::brdf

@@ -5,22 +5,22 @@
 
 #include <fmt/format.h>
 
+#include "sateen/appearance/json_reader.h"
 #include "sateen/brdf/fibre_diffuse.h"
 #include "sateen/brdf/fuzz_approximations.h"
 #include "sateen/brdf/fuzz_integrals.h"
 #include "sateen/brdf/ggx.h"
-#include "sateen/brdf/json_reader.h"
 #include "sateen/brdf/parameters.h"
 #include "sateen/core/error.h"
 #include "sateen/io/file.h"
 
-namespace sateen {
+namespace sateen::brdf {
 
 namespace {
 
 const std::array<std::string, 3> kModels = {"fibre-diffuse", "ggx", "fuzz"};
 
-BrdfFunction fibre_function(JsonObject& json) {
+BrdfFunction fibre_function(appearance::JsonObject& json) {
   static const std::array<std::string, 4> forms = {"closed", "printed", "integral", "maximum-normal"};
   const std::string form = json.choice("form", "closed", forms);
   if (form == "printed")
@@ -36,7 +36,7 @@ BrdfFunction fibre_function(JsonObject& json) {
   return [](const DirectionPair& d) { return Vec3::Constant(fibre_diffuse(d.light)); };
 }
 
-BrdfFunction ggx_function(JsonObject& json) {
+BrdfFunction ggx_function(appearance::JsonObject& json) {
   const GgxParameters ggx = read_ggx(json);
   if (!ggx.energy_compensation) {
     return [ggx](const DirectionPair& d) { return ggx_brdf(ggx.roughness, ggx.f0, d.light, d.view); };
@@ -50,7 +50,7 @@ BrdfFunction ggx_function(JsonObject& json) {
   };
 }
 
-BrdfFunction fuzz_function(JsonObject& json) {
+BrdfFunction fuzz_function(appearance::JsonObject& json) {
   static const std::array<std::string, 6> terms = {"brdf", "ps", "attenuation", "g", "q", "r"};
   static const std::array<std::string, 2> forms = {"exact", "slides"};
   const FuzzParameters fuzz = read_fuzz(json);
@@ -86,7 +86,7 @@ BrdfFunction fuzz_function(JsonObject& json) {
 }
 
 BrdfFunction function_of(const std::string& model, const nlohmann::json& value, const std::string& where) {
-  JsonObject json(value, where);
+  appearance::JsonObject json(value, where);
   BrdfFunction function;
   if (model == "fibre-diffuse") {
     function = fibre_function(json);
@@ -108,7 +108,7 @@ std::span<const std::string> brdf_models() {
 }
 
 BrdfFunction read_brdf(const std::string& model, const std::filesystem::path& parameters) {
-  return function_of(model, read_json(parameters), parameters.string());
+  return function_of(model, appearance::read_json(parameters), parameters.string());
 }
 
 BrdfFunction parse_brdf(const std::string& model, const std::string& json, const std::string& where) {
@@ -118,7 +118,7 @@ BrdfFunction parse_brdf(const std::string& model, const std::string& json, const
 }
 
 std::vector<DirectionPair> read_direction_pairs(const std::filesystem::path& path) {
-  const nlohmann::json list = read_json(path);
+  const nlohmann::json list = appearance::read_json(path);
   if (!list.is_array()) {
     throw Error(
         fmt::format("{}: expected a list of {{\"light\": [x, y, z], \"view\": [x, y, z]}}", path.string()));
@@ -126,7 +126,7 @@ std::vector<DirectionPair> read_direction_pairs(const std::filesystem::path& pat
   std::vector<DirectionPair> pairs;
   pairs.reserve(list.size());
   for (std::size_t i = 0; i < list.size(); ++i) {
-    JsonObject entry(list[i], fmt::format("{}, entry {}", path.string(), i));
+    appearance::JsonObject entry(list[i], fmt::format("{}, entry {}", path.string(), i));
     pairs.push_back({entry.direction("light"), entry.direction("view")});
     entry.finish();
   }
@@ -138,7 +138,7 @@ void write_values(const std::filesystem::path& path, std::span<const Vec3> value
   for (std::size_t i = 0; i < values.size(); ++i) {
     text += fmt::format("{}\n  [{}, {}, {}]", i == 0 ? "" : ",", values[i].x(), values[i].y(), values[i].z());
   }
-  write_text(path, text + "\n]\n");
+  io::write_text(path, text + "\n]\n");
 }
 
-}  // namespace sateen
+}  // namespace sateen::brdf

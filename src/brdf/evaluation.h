@@ -9,7 +9,7 @@
 
 #include "sateen/core/vector.h"
 
-namespace sateen {
+namespace sateen::brdf {
 
 /// Unit directions in the shading frame (tangent x, bitangent y, normal z) that point away from the surface.
 struct DirectionPair {
@@ -37,4 +37,4 @@ std::vector<DirectionPair> read_direction_pairs(const std::filesystem::path& pat
 /// Writes a JSON list of [r, g, b], one line each. Atomic.
 void write_values(const std::filesystem::path& path, std::span<const Vec3> values);
 
-}  // namespace sateen
+}  // namespace sateen::brdf

@@ -6,7 +6,7 @@
 
 #include "sateen/brdf/quadrature.h"
 
-namespace sateen {
+namespace sateen::brdf {
 
 namespace {
 
@@ -52,4 +52,4 @@ double fibre_maximum_normal(const Vec3& light) {
   return light.z() < 0 ? 0 : across_fibre(light);
 }
 
-}  // namespace sateen
+}  // namespace sateen::brdf

@@ -3,7 +3,7 @@
 
 #include "sateen/core/vector.h"
 
-namespace sateen {
+namespace sateen::brdf {
 
 // Diffuse light on a surface of fine parallel fibres, after Hast, Wesslen and Seipel, "Improved Diffuse
 // Anisotropic Shading": the light of all fibre normals n' in the plane across the fibre is summed, not only
@@ -47,4 +47,4 @@ inline constexpr FibreMoments kMaximumNormalMoments = {kPi * kPi / 2, 8.0 / 3, k
 inline constexpr FibreMoments kFibreMoments = {1 + kPi / 2, 8 / (3 * kPi) + 2.0 / 3, kPi / 8 + 0.25,
                                                3 * kPi / 16 + 0.25, 3 * kPi / 16 + 0.5};
 
-}  // namespace sateen
+}  // namespace sateen::brdf

@@ -7,7 +7,7 @@
 
 #include "sateen/core/parallel.h"
 
-namespace sateen {
+namespace sateen::brdf {
 
 namespace {
 
@@ -123,4 +123,4 @@ std::shared_ptr<const TextureData> FibreTable::texture(bool two_values) const {
   return texture;
 }
 
-}  // namespace sateen
+}  // namespace sateen::brdf

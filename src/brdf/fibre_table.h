@@ -5,9 +5,10 @@
 #include <memory>
 #include <vector>
 
-#include "sateen/core/appearance.h"
+#include "sateen/core/texture_data.h"
+#include "sateen/core/vector.h"
 
-namespace sateen {
+namespace sateen::brdf {
 
 /// Fibres of tables lean at least this far, in radians: nothing to the eye, and every direction has a place.
 inline constexpr double kUprightTilt = 1e-3;
@@ -54,4 +55,4 @@ class FibreTable {
   std::vector<Vec4f> texels_;
 };
 
-}  // namespace sateen
+}  // namespace sateen::brdf

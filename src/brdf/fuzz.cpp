@@ -6,7 +6,7 @@
 
 #include "sateen/core/direction.h"
 
-namespace sateen {
+namespace sateen::brdf {
 
 namespace {
 
@@ -140,4 +140,4 @@ Vec3 fuzz_attenuation(const FuzzParameters& fuzz, const Vec3& light, const Vec3&
          fuzz_passing(fuzz.density, view);
 }
 
-}  // namespace sateen
+}  // namespace sateen::brdf

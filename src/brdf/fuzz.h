@@ -3,7 +3,7 @@
 
 #include "sateen/core/vector.h"
 
-namespace sateen {
+namespace sateen::brdf {
 
 // Fuzz (asperity scattering): a thin single-scattering layer of fibres over a base layer, after Patry,
 // "Samurai Shading" (2020), which made Koenderink and Pont's "The Secret of Velvety Skin" (2003) anisotropic.
@@ -70,4 +70,4 @@ double fuzz_passing(double density, const Vec3& direction);
 /// Attenuation of the base layer's BRDF, [P_p(u) + c (1 - P_p(u)) P_s(u)] P_e(v); `scattered_down` is P_s(u).
 Vec3 fuzz_attenuation(const FuzzParameters& fuzz, const Vec3& light, const Vec3& view, double scattered_down);
 
-}  // namespace sateen
+}  // namespace sateen::brdf

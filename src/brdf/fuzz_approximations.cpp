@@ -8,7 +8,7 @@
 
 #include "sateen/brdf/fuzz_integrals.h"
 
-namespace sateen {
+namespace sateen::brdf {
 
 namespace {
 
@@ -182,4 +182,4 @@ PassingFit fit_passing() {
   return {{c[0], c[1]}, residuals(misfit(c))};
 }
 
-}  // namespace sateen
+}  // namespace sateen::brdf

@@ -7,7 +7,7 @@
 
 #include "sateen/brdf/fuzz.h"
 
-namespace sateen {
+namespace sateen::brdf {
 
 // Cheap stand-ins for the integrals of fuzz_integrals.h, as a shader needs them. The forms are the slides'
 // (Samurai Shading), the coefficients ours: `bench_fuzz_fit` integrates, fits and prints them with their
@@ -59,4 +59,4 @@ struct PassingFit {
 };
 PassingFit fit_passing();
 
-}  // namespace sateen
+}  // namespace sateen::brdf

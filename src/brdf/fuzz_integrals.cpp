@@ -7,7 +7,7 @@
 
 #include "sateen/brdf/quadrature.h"
 
-namespace sateen {
+namespace sateen::brdf {
 
 namespace {
 
@@ -89,4 +89,4 @@ double fuzz_albedo(const FuzzParameters& fuzz, const Vec3& light, double toleran
       fuzz.fibre(), cones, tolerance);
 }
 
-}  // namespace sateen
+}  // namespace sateen::brdf

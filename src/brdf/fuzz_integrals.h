@@ -3,7 +3,7 @@
 
 #include "sateen/brdf/fuzz.h"
 
-namespace sateen {
+namespace sateen::brdf {
 
 // The fuzz model's integrals as they are defined (Samurai Shading, shadowing and ambient slides), by adaptive
 // quadrature: the reference that fits and tables are held to. Directions as in fuzz.h; `tolerance` is
@@ -38,4 +38,4 @@ double fuzz_albedo(const FuzzParameters& fuzz, const Vec3& light, double toleran
 /// E_3(x), the exponential integral, x >= 0.
 double exponential_integral_3(double x);
 
-}  // namespace sateen
+}  // namespace sateen::brdf

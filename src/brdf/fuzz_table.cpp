@@ -8,7 +8,7 @@
 #include "sateen/brdf/fuzz_integrals.h"
 #include "sateen/brdf/quadrature.h"
 
-namespace sateen {
+namespace sateen::brdf {
 
 namespace {
 
@@ -146,4 +146,4 @@ FuzzTable make_fuzz_table(const FuzzParameters& parameters) {
   return table;
 }
 
-}  // namespace sateen
+}  // namespace sateen::brdf

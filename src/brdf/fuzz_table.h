@@ -6,7 +6,7 @@
 #include "sateen/brdf/fibre_table.h"
 #include "sateen/brdf/fuzz.h"
 
-namespace sateen {
+namespace sateen::brdf {
 
 /// What a shader needs of one fuzz besides its formula, tabulated over directions in the fibre's own frame
 /// (azimuth 0): far closer to the integrals than the slides' polynomials, and right where their ambient
@@ -34,4 +34,4 @@ struct FuzzTable {
 /// Integrates a table; about 0.07 s of one core, and as much again in the allocator on a busy machine.
 FuzzTable make_fuzz_table(const FuzzParameters& fuzz);
 
-}  // namespace sateen
+}  // namespace sateen::brdf

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstring>
 
-namespace sateen {
+namespace sateen::brdf {
 
 namespace {
 
@@ -97,4 +97,4 @@ std::shared_ptr<const TextureData> FuzzTiltTable::bands_texture() const {
   return texture;
 }
 
-}  // namespace sateen
+}  // namespace sateen::brdf

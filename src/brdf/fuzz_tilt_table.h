@@ -7,7 +7,7 @@
 
 #include "sateen/brdf/fuzz_table.h"
 
-namespace sateen {
+namespace sateen::brdf {
 
 /// FuzzTable for fibres of every tilt, for fuzz whose fibres change from point to point. Tables of single
 /// tilts lie one over the other, even in 2 sin(tilt / 2), and are read linearly between them, each at the
@@ -39,4 +39,4 @@ class FuzzTiltTable {
   std::vector<FuzzTable> tables_;
 };
 
-}  // namespace sateen
+}  // namespace sateen::brdf

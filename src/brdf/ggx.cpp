@@ -7,7 +7,7 @@
 #include "sateen/brdf/quadrature.h"
 #include "sateen/core/direction.h"
 
-namespace sateen {
+namespace sateen::brdf {
 
 namespace {
 
@@ -164,4 +164,4 @@ Vec3 ggx_multiple_scattering(const Vec3& f0, double albedo_light, double albedo_
   return bounces * lobe;
 }
 
-}  // namespace sateen
+}  // namespace sateen::brdf

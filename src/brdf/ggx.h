@@ -3,7 +3,7 @@
 
 #include "sateen/core/vector.h"
 
-namespace sateen {
+namespace sateen::brdf {
 
 // Anisotropic GGX microfacet reflection: Walter et al. 2007 made anisotropic as in Burley 2012,
 // height-correlated Smith masking-shadowing (Heitz 2014), Schlick's Fresnel; the matrix form is Patry,
@@ -74,4 +74,4 @@ double ggx_mean_albedo(const AnisotropicRoughness& roughness);
 /// GgxAlbedo::total of the two directions, `mean_albedo` their cosine-weighted mean over the hemisphere.
 Vec3 ggx_multiple_scattering(const Vec3& f0, double albedo_light, double albedo_view, double mean_albedo);
 
-}  // namespace sateen
+}  // namespace sateen::brdf

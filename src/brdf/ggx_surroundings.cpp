@@ -3,9 +3,9 @@
 
 #include <cmath>
 
-namespace sateen {
+namespace sateen::brdf {
 
-Vec3 ggx_surroundings(const PrefilteredEnvironment& environment, const AnisotropicRoughness& lobe,
+Vec3 ggx_surroundings(const light::PrefilteredEnvironment& environment, const AnisotropicRoughness& lobe,
                       const Mat3& frame, const Vec3& view, int lookups) {
   // Half vectors at the quantiles of the slopes that the narrow lobe lacks along the long axis: a GGX
   // marginal, slope = a c / sqrt(1 - c^2) with c even in (-1, 1).
@@ -32,4 +32,4 @@ Vec3 ggx_surroundings(const PrefilteredEnvironment& environment, const Anisotrop
   return total > 0 ? Vec3(sum / total) : Vec3::Zero();
 }
 
-}  // namespace sateen
+}  // namespace sateen::brdf

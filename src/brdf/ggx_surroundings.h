@@ -4,7 +4,7 @@
 #include "sateen/brdf/ggx.h"
 #include "sateen/light/prefiltered.h"
 
-namespace sateen {
+namespace sateen::brdf {
 
 /// The mean radiance of surroundings over a GGX lobe, to be scaled by the lobe's reflectance in uniform light
 /// (GgxAlbedo). Karis' split sum (2013) stretched: `lookups` reads along the long axis of the lobe, each
@@ -15,7 +15,7 @@ namespace sateen {
 /// The lobe's axis is the first column of `frame` (tangent, bitangent, normal in the map's space): alpha_t >=
 /// alpha_b, and the azimuth is taken as 0; `view` lies in that frame, above the horizon.
 /// shaders/ggx_surroundings.glsl does the same.
-Vec3 ggx_surroundings(const PrefilteredEnvironment& environment, const AnisotropicRoughness& lobe,
+Vec3 ggx_surroundings(const light::PrefilteredEnvironment& environment, const AnisotropicRoughness& lobe,
                       const Mat3& frame, const Vec3& view, int lookups);
 
-}  // namespace sateen
+}  // namespace sateen::brdf

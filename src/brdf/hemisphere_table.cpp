@@ -7,7 +7,7 @@
 
 #include "sateen/core/parallel.h"
 
-namespace sateen {
+namespace sateen::brdf {
 
 Vec3 hemisphere_direction(const Vec2& square) {
   const double x = (square.x() + square.y()) / 2;
@@ -54,4 +54,4 @@ std::shared_ptr<const TextureData> HemisphereTable::texture() const {
   return texture;
 }
 
-}  // namespace sateen
+}  // namespace sateen::brdf

@@ -5,9 +5,10 @@
 #include <memory>
 #include <vector>
 
-#include "sateen/core/appearance.h"
+#include "sateen/core/texture_data.h"
+#include "sateen/core/vector.h"
 
-namespace sateen {
+namespace sateen::brdf {
 
 /// Four values for every direction of the upper hemisphere, tabulated on a square by the hemi-octahedral map
 /// (no trigonometry in the shader) and read bilinearly. The first and last texels of a row lie on the
@@ -37,4 +38,4 @@ class HemisphereTable {
 Vec3 hemisphere_direction(const Vec2& square);
 Vec2 hemisphere_square(const Vec3& direction);
 
-}  // namespace sateen
+}  // namespace sateen::brdf

@@ -7,11 +7,11 @@
 
 #include "sateen/brdf/conventions.h"
 
-namespace sateen {
+namespace sateen::brdf {
 
 namespace {
 
-AnisotropicRoughness read_convention(JsonObject& json) {
+AnisotropicRoughness read_convention(appearance::JsonObject& json) {
   static const std::array<std::string, 4> names = {"gltf", "materialx", "blender", "filament"};
   const std::string name = json.choice("convention", "gltf", names);
   AnisotropyParameters given;
@@ -24,7 +24,7 @@ AnisotropicRoughness read_convention(JsonObject& json) {
   return from_gltf(given);
 }
 
-AnisotropicRoughness read_matrix(JsonObject& json) {
+AnisotropicRoughness read_matrix(appearance::JsonObject& json) {
   const nlohmann::json& m = json.raw("matrix");
   const char* expected = "[Sxx, Sxy, Syy] of a positive definite matrix with eigenvalues up to 1";
   if (!m.is_array() || m.size() != 3 || !m[0].is_number() || !m[1].is_number() || !m[2].is_number()) {
@@ -41,9 +41,9 @@ AnisotropicRoughness read_matrix(JsonObject& json) {
 
 }  // namespace
 
-GgxParameters read_ggx(JsonObject& json) {
+GgxParameters read_ggx(appearance::JsonObject& json) {
   GgxParameters ggx;
-  constexpr JsonObject::Range alpha{0, 1, true};
+  constexpr appearance::JsonObject::Range alpha{0, 1, true};
   const bool matrix = json.has("matrix");
   const bool convention = json.has("convention");
   if (matrix || convention) {
@@ -63,7 +63,7 @@ GgxParameters read_ggx(JsonObject& json) {
   return ggx;
 }
 
-FuzzParameters read_fuzz(JsonObject& json) {
+FuzzParameters read_fuzz(appearance::JsonObject& json) {
   static const std::array<std::string, 3> phases = {"sggx", "sggx-symmetric", "schlick"};
   static const std::array<std::string, 1> conventions = {"gltf"};
   FuzzParameters fuzz;
@@ -102,4 +102,4 @@ FuzzParameters read_fuzz(JsonObject& json) {
   return fuzz;
 }
 
-}  // namespace sateen
+}  // namespace sateen::brdf

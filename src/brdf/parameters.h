@@ -1,21 +1,21 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "sateen/appearance/json_reader.h"
 #include "sateen/brdf/fuzz.h"
 #include "sateen/brdf/ggx.h"
-#include "sateen/brdf/json_reader.h"
 
 // Parameters of the models from JSON, one spelling for `brdf eval` and for material files. Angles are degrees
 // there and radians inside. Include in .cpp files only.
 
-namespace sateen {
+namespace sateen::brdf {
 
 /// Keys alpha_t, alpha_b, azimuth; in their place matrix ([Sxx, Sxy, Syy]), or convention (gltf, materialx,
 /// blender, filament; conventions.h) with roughness, anisotropy, rotation; f0; energy_compensation.
-GgxParameters read_ggx(JsonObject& json);
+GgxParameters read_ggx(appearance::JsonObject& json);
 
 /// Keys density, alpha or k, phase, tilt, azimuth, color; in their place convention (gltf:
 /// KHR_materials_sheen) with sheen_color and sheen_roughness.
-FuzzParameters read_fuzz(JsonObject& json);
+FuzzParameters read_fuzz(appearance::JsonObject& json);
 
-}  // namespace sateen
+}  // namespace sateen::brdf

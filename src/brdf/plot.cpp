@@ -11,7 +11,7 @@
 #include "sateen/core/colour.h"
 #include "sateen/core/parallel.h"
 
-namespace sateen {
+namespace sateen::brdf {
 
 namespace {
 
@@ -218,4 +218,4 @@ std::string brdf_plot(const BrdfFunction& brdf, const PlotSettings& settings) {
   return text + "</svg>\n";
 }
 
-}  // namespace sateen
+}  // namespace sateen::brdf

@@ -6,7 +6,7 @@
 
 #include "sateen/brdf/evaluation.h"
 
-namespace sateen {
+namespace sateen::brdf {
 
 struct PlotSettings {
   std::string title;
@@ -26,4 +26,4 @@ std::string brdf_plot(const BrdfFunction& brdf, const PlotSettings& settings);
 /// luminance.
 double directional_albedo(const BrdfFunction& brdf, const Vec3& light);
 
-}  // namespace sateen
+}  // namespace sateen::brdf

@@ -9,7 +9,7 @@
 
 #include "sateen/core/direction.h"
 
-namespace sateen {
+namespace sateen::brdf {
 
 namespace {
 
@@ -177,4 +177,4 @@ std::vector<SphereNode> hemisphere_nodes(const Vec3& axis, std::span<const doubl
   return nodes;
 }
 
-}  // namespace sateen
+}  // namespace sateen::brdf

@@ -7,7 +7,7 @@
 
 #include "sateen/core/vector.h"
 
-namespace sateen {
+namespace sateen::brdf {
 
 /// The integral of `f` over [a, b] by adaptive Gauss-Kronrod (7, 15) bisection until the estimated error of
 /// every piece is below its share of `tolerance` (absolute), or a piece has been halved `max_depth` times.
@@ -37,4 +37,4 @@ double integrate_hemisphere(const std::function<double(const Vec3&)>& f, const V
 /// `order` Gauss nodes between neighbouring cones and along each circle.
 std::vector<SphereNode> hemisphere_nodes(const Vec3& axis, std::span<const double> cones, int order);
 
-}  // namespace sateen
+}  // namespace sateen::brdf

@@ -10,7 +10,7 @@
 
 #include "sateen/capture/used_frames.h"
 
-namespace sateen {
+namespace sateen::capture {
 namespace {
 
 std::string lens_advice(const CaptureResult& result) {
@@ -77,4 +77,4 @@ std::vector<std::string> framing_advice(const CaptureResult& result, int texels)
   return advice;
 }
 
-}  // namespace sateen
+}  // namespace sateen::capture

@@ -6,7 +6,7 @@
 
 #include "sateen/capture/capture.h"
 
-namespace sateen {
+namespace sateen::capture {
 
 /// Which frames were left out and why. Repeated ones are nothing to tell: a turn by hand has many.
 std::vector<std::string> dropped_advice(const std::vector<CaptureFrame>& frames);
@@ -17,4 +17,4 @@ LensEffect focal_effect(const CaptureResult& result);
 /// What to do better about framing, lens and axis, in plain words; `texels` is the table's size.
 std::vector<std::string> framing_advice(const CaptureResult& result, int texels);
 
-}  // namespace sateen
+}  // namespace sateen::capture

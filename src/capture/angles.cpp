@@ -6,7 +6,7 @@
 
 #include "sateen/core/direction.h"
 
-namespace sateen {
+namespace sateen::capture {
 
 std::vector<double> unwrapped(std::span<const double> angles) {
   std::vector<double> result;
@@ -63,4 +63,4 @@ Coverage coverage(std::span<const double> angles, double period) {
   return {gaps.back(), gaps[gaps.size() / 2]};
 }
 
-}  // namespace sateen
+}  // namespace sateen::capture

@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-namespace sateen {
+namespace sateen::capture {
 
 /// Angles (radians) made continuous: each differs from the one before by less than half a turn.
 std::vector<double> unwrapped(std::span<const double> angles);
@@ -29,4 +29,4 @@ struct Coverage {
 };
 Coverage coverage(std::span<const double> angles, double period);
 
-}  // namespace sateen
+}  // namespace sateen::capture

@@ -12,7 +12,7 @@
 #include "sateen/core/direction.h"
 #include "sateen/core/parallel.h"
 
-namespace sateen {
+namespace sateen::capture {
 namespace {
 
 constexpr double kWidestBridge = 1.0 / 9;  // turns
@@ -263,4 +263,4 @@ AssembledSlices assemble(const RectifiedStack& stack, const SurfaceMask& mask, d
   return result;
 }
 
-}  // namespace sateen
+}  // namespace sateen::capture

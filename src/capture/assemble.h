@@ -8,7 +8,7 @@
 #include "sateen/capture/surface_mask.h"
 #include "sateen/core/image.h"
 
-namespace sateen {
+namespace sateen::capture {
 
 /// Slices of a table at evenly spaced tangent angles over one period.
 struct AssembledSlices {
@@ -26,4 +26,4 @@ struct AssembledSlices {
 AssembledSlices assemble(const RectifiedStack& stack, const SurfaceMask& mask, double first_angle, int count,
                          int symmetry);
 
-}  // namespace sateen
+}  // namespace sateen::capture

@@ -6,7 +6,7 @@
 
 #include "sateen/capture/camera.h"
 
-namespace sateen {
+namespace sateen::capture {
 
 std::vector<double> find_brackets(std::span<const std::filesystem::path> files) {
   if (files.size() < 4) return {};
@@ -40,7 +40,7 @@ std::vector<double> find_brackets(std::span<const std::filesystem::path> files) 
   return {};
 }
 
-Frame merge_brackets(std::span<const Frame> group, std::span<const double> exposure_times) {
+Photograph merge_brackets(std::span<const Photograph> group, std::span<const double> exposure_times) {
   const double longest = *std::ranges::max_element(exposure_times);
   const auto shortest =
       static_cast<std::size_t>(std::ranges::min_element(exposure_times) - exposure_times.begin());
@@ -68,4 +68,4 @@ Frame merge_brackets(std::span<const Frame> group, std::span<const double> expos
           clip > 0 ? std::min(clip, 0.98f * range) : std::numeric_limits<float>::infinity()};
 }
 
-}  // namespace sateen
+}  // namespace sateen::capture

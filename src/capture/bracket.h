@@ -5,9 +5,9 @@
 #include <span>
 #include <vector>
 
-#include "sateen/capture/frame.h"
+#include "sateen/capture/photograph.h"
 
-namespace sateen {
+namespace sateen::capture {
 
 /// The exposure times (seconds) of one bracketed group when the pictures repeat the same two to nine
 /// different times over and over, after their EXIF notes; empty otherwise, and when any picture does not say.
@@ -16,6 +16,6 @@ std::vector<double> find_brackets(std::span<const std::filesystem::path> files);
 /// One picture of light from a group of exposures, as light per unit of the longest exposure: each sample
 /// weighs by how far it is from black and from clipping and by its exposure time (Debevec and Malik 1997, eq.
 /// 6, with a known response). Clipped in the result is only what the shortest exposure clips.
-Frame merge_brackets(std::span<const Frame> group, std::span<const double> exposure_times);
+Photograph merge_brackets(std::span<const Photograph> group, std::span<const double> exposure_times);
 
-}  // namespace sateen
+}  // namespace sateen::capture

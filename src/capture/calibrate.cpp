@@ -8,7 +8,7 @@
 #include "sateen/core/error.h"
 #include "sateen/io/picture8.h"
 
-namespace sateen {
+namespace sateen::capture {
 
 Calibration calibrate(const std::vector<std::filesystem::path>& pictures, int columns, int rows) {
   Calibration result;
@@ -20,7 +20,7 @@ Calibration calibrate(const std::vector<std::filesystem::path>& pictures, int co
   std::vector<std::vector<cv::Point2f>> seen;
   cv::Size size;
   for (const auto& path : pictures) {
-    Picture8 picture = read_picture8(path);
+    io::Picture8 picture = io::read_picture8(path);
     if (size.empty()) size = {picture.width, picture.height};
     if (size != cv::Size(picture.width, picture.height)) {
       throw Error(fmt::format("{}: is {} x {}, the first picture is {} x {}", path.string(), picture.width,
@@ -69,4 +69,4 @@ Calibration calibrate(const std::vector<std::filesystem::path>& pictures, int co
   return result;
 }
 
-}  // namespace sateen
+}  // namespace sateen::capture

@@ -7,7 +7,7 @@
 
 #include "sateen/capture/camera.h"
 
-namespace sateen {
+namespace sateen::capture {
 
 struct Calibration {
   Camera camera;
@@ -21,4 +21,4 @@ struct Calibration {
 /// fewer than 5 pictures show the board, when they differ in size, and when the fit is worse than 2 pixels.
 Calibration calibrate(const std::vector<std::filesystem::path>& pictures, int columns, int rows);
 
-}  // namespace sateen
+}  // namespace sateen::capture

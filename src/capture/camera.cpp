@@ -10,7 +10,7 @@
 #include "sateen/core/error.h"
 #include "sateen/io/file.h"
 
-namespace sateen {
+namespace sateen::capture {
 namespace {
 
 /// Brown-Conrady: where the lens puts the undistorted point (x, y) of the plane at distance 1, y down.
@@ -74,7 +74,7 @@ double focal_of_fov(int width, double fov) {
 }
 
 Camera read_camera(const std::filesystem::path& path) {
-  const std::string text = read_text(path);
+  const std::string text = io::read_text(path);
   try {
     const auto json = nlohmann::json::parse(text);
     Camera camera;
@@ -101,7 +101,7 @@ void write_camera(const std::filesystem::path& path, const Camera& camera, doubl
                                     {"principal", {camera.principal.x(), camera.principal.y()}},
                                     {"distortion", camera.distortion},
                                     {"rms_pixels", rms_pixels}};
-  write_text(path, json.dump(2) + "\n");
+  io::write_text(path, json.dump(2) + "\n");
 }
 
-}  // namespace sateen
+}  // namespace sateen::capture

@@ -7,7 +7,7 @@
 
 #include "sateen/core/vector.h"
 
-namespace sateen {
+namespace sateen::capture {
 
 /// A pinhole camera with the Brown-Conrady lens distortion. Pixel coordinates run right and down from the
 /// picture's top left corner, pixel centres at +0.5; rays live in view space (x right, y up, the camera looks
@@ -54,4 +54,4 @@ struct LensNotes {
 };
 LensNotes read_lens_notes(const std::filesystem::path& path);
 
-}  // namespace sateen
+}  // namespace sateen::capture

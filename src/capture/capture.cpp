@@ -20,7 +20,7 @@
 #include "sateen/core/direction.h"
 #include "sateen/core/error.h"
 
-namespace sateen {
+namespace sateen::capture {
 namespace {
 
 void check_count(std::size_t frames) {
@@ -89,4 +89,4 @@ CaptureResult build_capture(const std::vector<std::filesystem::path>& inputs, co
   return result;
 }
 
-}  // namespace sateen
+}  // namespace sateen::capture

@@ -17,7 +17,7 @@
 #include "sateen/capture/surface_mask.h"
 #include "sateen/core/progress.h"
 
-namespace sateen {
+namespace sateen::capture {
 
 /// Where the frames' turning angles come from.
 enum class AngleSource {
@@ -38,10 +38,10 @@ struct CaptureOptions {
   FrameSourceOptions source;
   int size = 128;    ///< S
   int slices = 128;  ///< S_k over one period
-  AmcEncoding encoding = AmcEncoding::half;
+  amc::AmcEncoding encoding = amc::AmcEncoding::half;
   TableFrame frame = TableFrame::eye;
-  std::optional<int> symmetry;                            ///< R to enforce; otherwise detected
-  double symmetry_threshold = kDefaultSymmetryThreshold;  ///< dB
+  std::optional<int> symmetry;                                 ///< R to enforce; otherwise detected
+  double symmetry_threshold = amc::kDefaultSymmetryThreshold;  ///< dB
 
   std::optional<Camera> camera;  ///< from a calibration; scaled to the pictures
   double focal_mm = 0;           ///< 0: unknown
@@ -79,7 +79,7 @@ struct CaptureFrame {
 };
 
 struct CaptureResult {
-  AmcTable table;
+  amc::AmcTable table;
   Camera camera;
   std::optional<FocalEstimate> focal;  ///< where nothing told the focal length: what `camera` then has
   SphereView sphere;                   ///< mean over the turn
@@ -91,7 +91,7 @@ struct CaptureResult {
   bool equal_steps = false;
   double turned = 0;  ///< radians in all
   Photometry photometry;
-  SymmetryReport symmetry;
+  amc::SymmetryReport symmetry;
   SurfaceMask mask;
   double clipped_share = 0;        ///< of all samples
   double seen_share = 0;           ///< of table entries inside the disc that were measured, not filled
@@ -111,4 +111,4 @@ inline constexpr int kFewestCaptureFrames = 12;
 /// get wrong.
 CaptureResult build_capture(const std::vector<std::filesystem::path>& inputs, const CaptureOptions& options);
 
-}  // namespace sateen
+}  // namespace sateen::capture

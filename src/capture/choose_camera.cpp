@@ -7,7 +7,7 @@
 
 #include "sateen/core/error.h"
 
-namespace sateen {
+namespace sateen::capture {
 
 Camera choose_camera(const FrameSource& source, const CaptureOptions& options) {
   const int width = source.width();
@@ -44,4 +44,4 @@ Camera choose_camera(const FrameSource& source, const CaptureOptions& options) {
   return pinhole(focal_of_fov(width, radians(kAssumedFov)), kAssumedFocal);
 }
 
-}  // namespace sateen
+}  // namespace sateen::capture

@@ -3,7 +3,7 @@
 
 #include "sateen/capture/capture.h"
 
-namespace sateen {
+namespace sateen::capture {
 
 /// Degrees, horizontal: assumed where nothing is known of the lens; common for webcams.
 inline constexpr double kAssumedFov = 60;
@@ -16,4 +16,4 @@ inline constexpr const char* kEstimatedFocal = "estimated from the sphere's outl
 /// pictures of another shape.
 Camera choose_camera(const FrameSource& source, const CaptureOptions& options);
 
-}  // namespace sateen
+}  // namespace sateen::capture

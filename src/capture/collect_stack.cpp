@@ -9,10 +9,10 @@
 #include "sateen/capture/used_frames.h"
 #include "sateen/core/parallel.h"
 
-namespace sateen {
+namespace sateen::capture {
 namespace {
 
-Image preview_of(const Frame& frame) {
+Image preview_of(const Photograph& frame) {
   const int factor = (frame.width() + 959) / 960;
   Image preview(frame.width() / factor, frame.height() / factor, 3);
   parallel_for(preview.height, [&](int y) {
@@ -75,7 +75,7 @@ RectifiedStack collect_stack(FrameSource& source, const FirstLook& look, const S
   const PixelRect sphere = map.region(centres, source.width(), source.height());
   std::vector<RectifiedFrame> frames(result.frames.size());
   std::atomic<int> done = 0;
-  const auto take = [&](int index, const Frame& frame) {
+  const auto take = [&](int index, const Photograph& frame) {
     const CaptureFrame& known = result.frames[static_cast<std::size_t>(index)];
     frames[static_cast<std::size_t>(index)] = rectify(map, frame, known.centre, known.gain);
     report(progress, static_cast<double>(++done) / static_cast<double>(indices.size()));
@@ -93,4 +93,4 @@ RectifiedStack collect_stack(FrameSource& source, const FirstLook& look, const S
   return stack;
 }
 
-}  // namespace sateen
+}  // namespace sateen::capture

@@ -9,7 +9,7 @@
 #include "sateen/core/direction.h"
 #include "sateen/core/parallel.h"
 
-namespace sateen {
+namespace sateen::capture {
 namespace {
 
 bool on_disc(std::size_t texel, int size) {
@@ -146,4 +146,4 @@ void fill_unseen(std::vector<Image>& slices, const std::vector<std::uint8_t>& se
   });
 }
 
-}  // namespace sateen
+}  // namespace sateen::capture

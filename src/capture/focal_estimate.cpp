@@ -8,7 +8,7 @@
 #include "sateen/capture/median.h"
 #include "sateen/core/direction.h"
 
-namespace sateen {
+namespace sateen::capture {
 namespace {
 
 constexpr std::size_t kFewestPoints = 40;
@@ -155,4 +155,4 @@ LensEffect lens_effect(double radius, double focal, double real) {
           degrees(std::abs(half(real) - half(focal)) / 2)};
 }
 
-}  // namespace sateen
+}  // namespace sateen::capture

@@ -6,7 +6,7 @@
 
 #include "sateen/capture/camera.h"
 
-namespace sateen {
+namespace sateen::capture {
 
 /// What is known of a focal length that nobody told, pixels.
 struct FocalEstimate {
@@ -40,4 +40,4 @@ struct LensEffect {
 };
 LensEffect lens_effect(double radius, double focal, double real);
 
-}  // namespace sateen
+}  // namespace sateen::capture

@@ -12,7 +12,7 @@
 #include "sateen/core/direction.h"
 #include "sateen/core/error.h"
 
-namespace sateen {
+namespace sateen::capture {
 namespace {
 
 constexpr double kRegistrationNoise = radians(0.25);
@@ -170,4 +170,4 @@ void check_turn(const std::vector<CaptureFrame>& frames, const FrameAngles& turn
   }
 }
 
-}  // namespace sateen
+}  // namespace sateen::capture

@@ -6,7 +6,7 @@
 
 #include "sateen/capture/measure.h"
 
-namespace sateen {
+namespace sateen::capture {
 
 /// How the sphere turned over all frames.
 struct FrameAngles {
@@ -30,4 +30,4 @@ FrameAngles find_frame_angles(std::vector<FrameNotes>& notes, const Mat3& axes, 
 void check_turn(const std::vector<CaptureFrame>& frames, const FrameAngles& turn,
                 const CaptureOptions& options, std::vector<std::string>& warnings);
 
-}  // namespace sateen
+}  // namespace sateen::capture

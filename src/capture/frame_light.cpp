@@ -5,7 +5,7 @@
 
 #include "sateen/capture/used_frames.h"
 
-namespace sateen {
+namespace sateen::capture {
 
 Photometry find_frame_light(std::vector<FrameNotes>& notes, const FirstLook& look, int height,
                             std::vector<CaptureFrame>& frames, std::vector<std::string>& warnings) {
@@ -35,4 +35,4 @@ Photometry find_frame_light(std::vector<FrameNotes>& notes, const FirstLook& loo
   return photometry;
 }
 
-}  // namespace sateen
+}  // namespace sateen::capture

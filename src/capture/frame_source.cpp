@@ -16,21 +16,21 @@
 #include "sateen/io/image.h"
 #include "sateen/io/video_reader.h"
 
-namespace sateen {
+namespace sateen::capture {
 namespace fs = std::filesystem;
 
 namespace {
 
 bool is_video_file(const fs::path& path) {
-  const auto known = video_extensions();
-  return std::ranges::find(known, extension_of(path)) != known.end();
+  const auto known = io::video_extensions();
+  return std::ranges::find(known, io::extension_of(path)) != known.end();
 }
 
 /// A promise of fewer frames is sooner checked than believed: some containers do not say.
 constexpr int kFewestPromised = 32;
 
 int count_by_decoding(const fs::path& path) {
-  VideoReader reader(path);
+  io::VideoReader reader(path);
   int frames = 0;
   while (reader.skip()) ++frames;
   return frames;
@@ -46,7 +46,7 @@ FrameSource FrameSource::open(const std::vector<fs::path>& inputs, const FrameSo
 
   std::error_code code;
   if (inputs.size() == 1 && is_video_file(inputs[0]) && !fs::is_directory(inputs[0], code)) {
-    const VideoReader reader(inputs[0]);
+    const io::VideoReader reader(inputs[0]);
     source.video_ = true;
     source.files_ = inputs;
     source.width_ = reader.width();
@@ -61,13 +61,13 @@ FrameSource FrameSource::open(const std::vector<fs::path>& inputs, const FrameSo
           fmt::format("{}: a video has to be the only input, without other files beside it", input.string()));
     }
   }
-  source.files_ = expand_inputs(inputs, image_extensions());
+  source.files_ = io::expand_inputs(inputs, io::image_extensions());
   const auto brackets = find_brackets(source.files_);
   source.exposure_times_ = brackets;
   const std::size_t group = std::max<std::size_t>(1, brackets.size());
   source.counted_ = true;
   source.spread(static_cast<int>(source.files_.size() / group));
-  const Frame first = source.decode(0);
+  const Photograph first = source.decode(0);
   source.width_ = first.width();
   source.height_ = first.height();
   return source;
@@ -110,40 +110,40 @@ std::string FrameSource::name(int index) const {
   return video_ ? fmt::format("{}#{}", file, index * stride_) : file;
 }
 
-Frame FrameSource::decode(int index, Picture8 memory, const PixelRect* only) const {
+Photograph FrameSource::decode(int index, io::Picture8 memory, const PixelRect* only) const {
   const auto one = [&](const fs::path& file) {
-    const std::string extension = extension_of(file);
+    const std::string extension = io::extension_of(file);
     const bool floats = extension == ".exr" || extension == ".hdr";
     const bool jpeg = extension == ".jpg" || extension == ".jpeg";
-    if (jpeg || (!floats && read_image_info(file).bits == 8)) {
-      only == nullptr ? read_picture8(file, memory) : read_picture8(file, *only, memory);
-      return Frame(std::exchange(memory, {}), response_);
+    if (jpeg || (!floats && io::read_image_info(file).bits == 8)) {
+      only == nullptr ? io::read_picture8(file, memory) : io::read_picture8(file, *only, memory);
+      return Photograph(std::exchange(memory, {}), response_);
     }
-    Image image = with_channels(read_data(file), 3);
+    Image image = with_channels(io::read_data(file), 3);
     if (!floats || options_.response) {
       for (float& v : image.data) v = response_(v);
     }
-    return Frame(std::move(image), floats ? std::numeric_limits<float>::infinity() : 0.995f);
+    return Photograph(std::move(image), floats ? std::numeric_limits<float>::infinity() : 0.995f);
   };
   if (exposure_times_.size() < 2) return one(path(index));
-  std::vector<Frame> group;
+  std::vector<Photograph> group;
   for (std::size_t i = 0; i < exposure_times_.size(); ++i) {
     group.push_back(one(files_[static_cast<std::size_t>(index * stride_) * exposure_times_.size() + i]));
   }
   return merge_brackets(group, exposure_times_);
 }
 
-void FrameSource::visit(std::span<const int> indices, const std::function<void(int, const Frame&)>& body,
+void FrameSource::visit(std::span<const int> indices, const std::function<void(int, const Photograph&)>& body,
                         const PixelRect* only) {
   struct Item {
     int index = 0;
-    Picture8 picture;
+    io::Picture8 picture;
   };
-  std::optional<VideoReader> reader;
+  std::optional<io::VideoReader> reader;
   if (video_) reader.emplace(files_[0]);
   std::size_t next = 0;
-  int position = 0;                       // of the video's next frame
-  tbb::concurrent_queue<Picture8> spare;  // memory of frames that are done
+  int position = 0;                           // of the video's next frame
+  tbb::concurrent_queue<io::Picture8> spare;  // memory of frames that are done
   const auto tokens = static_cast<std::size_t>(tbb::this_task_arena::max_concurrency()) + (video_ ? 1 : 0);
 
   tbb::parallel_pipeline(
@@ -174,8 +174,8 @@ void FrameSource::visit(std::span<const int> indices, const std::function<void(i
         }
         return item;
       }) & tbb::make_filter<Item, void>(tbb::filter_mode::parallel, [&](Item item) {
-        Frame frame = video_ ? Frame(std::move(item.picture), response_)
-                             : decode(item.index, std::move(item.picture), only);
+        Photograph frame = video_ ? Photograph(std::move(item.picture), response_)
+                                  : decode(item.index, std::move(item.picture), only);
         if (frame.width() != width_ || frame.height() != height_) {
           throw Error(fmt::format("{}: is {} x {} pixels, the first frame is {} x {}; all must be alike",
                                   path(item.index).string(), frame.width(), frame.height(), width_, height_));
@@ -185,12 +185,12 @@ void FrameSource::visit(std::span<const int> indices, const std::function<void(i
       }));
 }
 
-Frame FrameSource::read(int index) {
+Photograph FrameSource::read(int index) {
   if (!video_) return decode(index);
-  Frame result;
+  Photograph result;
   const std::array<int, 1> only{index};
-  visit(only, [&](int, const Frame& frame) { result = frame; });
+  visit(only, [&](int, const Photograph& frame) { result = frame; });
   return result;
 }
 
-}  // namespace sateen
+}  // namespace sateen::capture

@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "sateen/capture/camera.h"
-#include "sateen/capture/frame.h"
+#include "sateen/capture/photograph.h"
 
-namespace sateen {
+namespace sateen::capture {
 
 struct FrameSourceOptions {
   std::optional<Response> response;  ///< otherwise sRGB for 8- and 16-bit files, linear for EXR and HDR
@@ -44,14 +44,14 @@ class FrameSource {
   /// another size.
   /// With `only` (not null, inside the picture) the body looks at nothing else: of photographs the rest may
   /// not be there.
-  void visit(std::span<const int> indices, const std::function<void(int, const Frame&)>& body,
+  void visit(std::span<const int> indices, const std::function<void(int, const Photograph&)>& body,
              const PixelRect* only = nullptr);
 
   /// Frame `index` alone; of a video everything before it is decoded too.
-  Frame read(int index);
+  Photograph read(int index);
 
  private:
-  Frame decode(int index, Picture8 memory = {}, const PixelRect* only = nullptr) const;
+  Photograph decode(int index, io::Picture8 memory = {}, const PixelRect* only = nullptr) const;
   void spread(int frames);     // the used ones over all `frames` there are
   void found_end(int frames);  // of a video, after `frames`
 
@@ -69,4 +69,4 @@ class FrameSource {
   std::string damage_;
 };
 
-}  // namespace sateen
+}  // namespace sateen::capture

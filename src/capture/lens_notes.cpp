@@ -3,7 +3,7 @@
 
 #include "sateen/capture/camera.h"
 
-namespace sateen {
+namespace sateen::capture {
 
 LensNotes read_lens_notes(const std::filesystem::path& path) {
   LensNotes notes;
@@ -23,4 +23,4 @@ LensNotes read_lens_notes(const std::filesystem::path& path) {
   return notes;
 }
 
-}  // namespace sateen
+}  // namespace sateen::capture

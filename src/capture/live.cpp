@@ -14,7 +14,7 @@
 #include "sateen/io/file.h"
 #include "sateen/io/video_reader.h"
 
-namespace sateen {
+namespace sateen::capture {
 namespace fs = std::filesystem;
 
 namespace {
@@ -35,14 +35,14 @@ class V4lCamera final : public LiveCamera {
     capture_.set(cv::CAP_PROP_AUTOFOCUS, 0);
   }
 
-  Picture8 shoot() override {
+  io::Picture8 shoot() override {
     cv::Mat frame;
     // The driver may still hold frames from while the stage moved.
     for (int i = 0; i < 3; ++i) {
       if (!capture_.read(frame) || frame.empty())
         throw Error("the camera delivers no more pictures; is it still plugged in?");
     }
-    Picture8 picture;
+    io::Picture8 picture;
     picture.width = frame.cols;
     picture.height = frame.rows;
     picture.rgb.resize(frame.total() * 3);
@@ -73,15 +73,15 @@ class RecordedCamera final : public LiveCamera {
  public:
   explicit RecordedCamera(const fs::path& path) : path_(path), reader_(path) {}
 
-  Picture8 shoot() override {
-    Picture8 picture;
+  io::Picture8 shoot() override {
+    io::Picture8 picture;
     if (!reader_.next(picture)) throw Error(fmt::format("{}: has no more frames", path_.string()));
     return picture;
   }
 
  private:
   fs::path path_;
-  VideoReader reader_;
+  io::VideoReader reader_;
 };
 
 std::string frame_name(int i) {
@@ -89,14 +89,14 @@ std::string frame_name(int i) {
 }
 
 /// A frame is there when its file is: files appear whole or not at all.
-void write_frame(const fs::path& path, Picture8 picture) {
+void write_frame(const fs::path& path, io::Picture8 picture) {
   cv::Mat bgr;
   cv::cvtColor(cv::Mat(picture.height, picture.width, CV_8UC3, picture.rgb.data()), bgr, cv::COLOR_RGB2BGR);
   std::vector<unsigned char> png;
   if (!cv::imencode(".png", bgr, png, {cv::IMWRITE_PNG_COMPRESSION, 3})) {
     throw Error(fmt::format("{}: the camera's picture cannot be encoded", path.string()));
   }
-  write_bytes(path, std::as_bytes(std::span(png)));
+  io::write_bytes(path, std::as_bytes(std::span(png)));
 }
 
 /// What capture.json beside the frames says.
@@ -110,7 +110,7 @@ std::optional<Plan> read_plan(const fs::path& folder) {
   std::error_code code;
   if (!fs::exists(path, code)) return std::nullopt;
   try {
-    const auto json = nlohmann::json::parse(read_text(path));
+    const auto json = nlohmann::json::parse(io::read_text(path));
     Plan plan{json.at("frames").get<int>(), json.value("degrees", std::vector<double>{})};
     if (plan.degrees.empty() || plan.degrees.size() == static_cast<std::size_t>(plan.frames)) return plan;
   } catch (const nlohmann::json::exception&) {
@@ -121,7 +121,7 @@ std::optional<Plan> read_plan(const fs::path& folder) {
 void write_plan(const fs::path& folder, const Plan& plan) {
   nlohmann::ordered_json json{{"frames", plan.frames}};
   if (!plan.degrees.empty()) json["degrees"] = plan.degrees;
-  write_text(folder / "capture.json", json.dump(2) + "\n");
+  io::write_text(folder / "capture.json", json.dump(2) + "\n");
 }
 
 int frames_in(const fs::path& folder, int frames) {
@@ -175,7 +175,7 @@ LiveResult capture_live(Stage& stage, LiveCamera& camera, const LiveOptions& opt
     if (last_found >= 0) stage.stands_at(degrees[static_cast<std::size_t>(last_found)]);
     last_found = -1;
     stage.move_to(degrees[static_cast<std::size_t>(i)]);
-    const Picture8 picture = camera.shoot();
+    const io::Picture8 picture = camera.shoot();
     try {
       write_frame(path, picture);
     } catch (const Error& error) {
@@ -188,4 +188,4 @@ LiveResult capture_live(Stage& stage, LiveCamera& camera, const LiveOptions& opt
   return result;
 }
 
-}  // namespace sateen
+}  // namespace sateen::capture

@@ -11,14 +11,14 @@
 #include "sateen/core/progress.h"
 #include "sateen/io/picture8.h"
 
-namespace sateen {
+namespace sateen::capture {
 
 /// What takes the pictures.
 class LiveCamera {
  public:
   virtual ~LiveCamera() = default;
   /// A picture taken after this call, not one buffered before it. Throws Error when the camera is gone.
-  virtual Picture8 shoot() = 0;
+  virtual io::Picture8 shoot() = 0;
   /// What could not be fixed (exposure, white balance), for the user.
   virtual std::vector<std::string> warnings() const { return {}; }
 };
@@ -50,4 +50,4 @@ LiveResult capture_live(Stage& stage, LiveCamera& camera, const LiveOptions& opt
 /// there is none or its stage did not know them. Throws Error when capture.json is damaged.
 std::vector<double> stage_angles(const std::filesystem::path& folder);
 
-}  // namespace sateen
+}  // namespace sateen::capture

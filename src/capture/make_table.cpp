@@ -8,7 +8,7 @@
 #include "sateen/core/direction.h"
 #include "sateen/core/parallel.h"
 
-namespace sateen {
+namespace sateen::capture {
 namespace {
 
 constexpr int kSymmetrySlices = 48;  // divisible by 2, 3 and 4
@@ -50,16 +50,16 @@ RectifiedStack thinned(const RectifiedStack& stack, int step) {
   return thin;
 }
 
-SymmetryReport symmetry_of(const RectifiedStack& all, const SurfaceMask& mask, double first_angle,
-                           double threshold) {
+amc::SymmetryReport symmetry_of(const RectifiedStack& all, const SurfaceMask& mask, double first_angle,
+                                double threshold) {
   const RectifiedStack stack = thinned(all, std::max(1, all.size / kSymmetrySize));
   AssembledSlices whole = assemble(stack, mask, first_angle, kSymmetrySlices, 1);
   take_unseen_from_opposite(whole, stack.size);
-  std::vector<AmcFrame> frames;
+  std::vector<amc::AmcFrame> frames;
   for (int i = 0; i < kSymmetrySlices; ++i) {
     frames.push_back({whole.slices[static_cast<std::size_t>(i)], static_cast<double>(i) / kSymmetrySlices});
   }
-  return analyse_symmetry(frames, threshold);
+  return amc::analyse_symmetry(frames, threshold);
 }
 
 }  // namespace
@@ -69,12 +69,13 @@ void make_table(const RectifiedStack& stack, double first_angle, const CaptureOp
   result.symmetry = symmetry_of(stack, result.mask, first_angle, options.symmetry_threshold);
   const int symmetry = options.symmetry.value_or(result.symmetry.symmetry);
   AssembledSlices slices = assemble(stack, result.mask, first_angle, options.slices, symmetry);
-  result.table = AmcTable(options.size, options.slices, symmetry);
+  result.table = amc::AmcTable(options.size, options.slices, symmetry);
   result.table.encoding = options.encoding;
   result.table.isotropic = !options.symmetry && result.symmetry.isotropic;
-  parallel_for(options.slices,
-               [&](int i) { set_slice_image(result.table, i, slices.slices[static_cast<std::size_t>(i)]); });
-  quantise(result.table);
+  parallel_for(options.slices, [&](int i) {
+    amc::set_slice_image(result.table, i, slices.slices[static_cast<std::size_t>(i)]);
+  });
+  amc::quantise(result.table);
   result.seen_share = slices.seen_share;
   result.seen = std::move(slices.seen);
   result.table.provenance = {
@@ -86,4 +87,4 @@ void make_table(const RectifiedStack& stack, double first_angle, const CaptureOp
   };
 }
 
-}  // namespace sateen
+}  // namespace sateen::capture

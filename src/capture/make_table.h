@@ -3,11 +3,11 @@
 
 #include "sateen/capture/capture.h"
 
-namespace sateen {
+namespace sateen::capture {
 
 /// Finds the symmetry and assembles the table, whose tangent stands at `first_angle` (radians) at angle 0.
 /// Sets the result's table, symmetry and what of it was seen.
 void make_table(const RectifiedStack& stack, double first_angle, const CaptureOptions& options,
                 CaptureResult& result);
 
-}  // namespace sateen
+}  // namespace sateen::capture

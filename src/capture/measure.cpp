@@ -12,7 +12,7 @@
 #include "sateen/capture/median.h"
 #include "sateen/core/error.h"
 
-namespace sateen {
+namespace sateen::capture {
 namespace {
 
 constexpr int kScouts = 24;
@@ -88,7 +88,7 @@ FirstLook first_look(FrameSource& source, const Camera& camera, const Progress& 
   }
   std::vector<GreyPicture> greys(indices.size());
   std::atomic<int> done = 0;
-  source.visit(indices, [&](int index, const Frame& frame) {
+  source.visit(indices, [&](int index, const Photograph& frame) {
     const auto at = std::ranges::lower_bound(indices, index) - indices.begin();
     greys[static_cast<std::size_t>(at)] = grey_picture(frame, look.factor);
     report(progress, static_cast<double>(++done) / scouts);
@@ -146,7 +146,7 @@ std::vector<FrameNotes> measure_frames(FrameSource& source, const FirstLook& loo
   std::iota(indices.begin(), indices.end(), 0);
   std::atomic<int> done = 0;
   tbb::enumerable_thread_specific<GreyPicture> greys;
-  source.visit(indices, [&](int index, const Frame& frame) {
+  source.visit(indices, [&](int index, const Photograph& frame) {
     FrameNotes& note = notes[static_cast<std::size_t>(index)];
     GreyPicture& grey = greys.local();
     grey_picture(frame, look.factor, region, grey);
@@ -166,4 +166,4 @@ std::vector<FrameNotes> measure_frames(FrameSource& source, const FirstLook& loo
   return notes;
 }
 
-}  // namespace sateen
+}  // namespace sateen::capture

@@ -10,7 +10,7 @@
 #include "sateen/capture/still_mask.h"
 #include "sateen/capture/turning.h"
 
-namespace sateen {
+namespace sateen::capture {
 
 /// What a first look at a few frames finds: where the sphere is, and what stands still. In grey pixels.
 struct FirstLook {
@@ -40,4 +40,4 @@ struct FrameNotes {
 std::vector<FrameNotes> measure_frames(FrameSource& source, const FirstLook& look, const StillMask& still,
                                        const Mat3& axes, const Progress& progress);
 
-}  // namespace sateen
+}  // namespace sateen::capture

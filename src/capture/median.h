@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <vector>
 
-namespace sateen {
+namespace sateen::capture {
 
 /// The middle value (the upper of two), of values that may be reordered; there must be one.
 template <typename T>
@@ -19,4 +19,4 @@ double median(std::vector<T> values) {
   return static_cast<double>(middle_of(values));
 }
 
-}  // namespace sateen
+}  // namespace sateen::capture

@@ -8,7 +8,7 @@
 #include "sateen/core/parallel.h"
 #include "sateen/light/environment.h"
 
-namespace sateen {
+namespace sateen::capture {
 
 Vec3 mirror_normal(const SphereView& ball, const Vec3& towards) {
   // The half vector of light and eye; the eye's direction depends a little on where the normal is, so it is
@@ -65,8 +65,8 @@ void fill_hidden(Image& map, std::vector<std::uint8_t>& known) {
 
 }  // namespace
 
-Image mirror_ball_environment(const Frame& frame, const Camera& camera, const SphereView& ball, int width,
-                              double reflectance) {
+Image mirror_ball_environment(const Photograph& frame, const Camera& camera, const SphereView& ball,
+                              int width, double reflectance) {
   constexpr double kRim = 1.5;  // pixels that mix in what lies behind the ball
   constexpr int kMostSamples = 8;
   const int height = width / 2;
@@ -85,7 +85,7 @@ Image mirror_ball_environment(const Frame& frame, const Camera& camera, const Sp
         const int row = i / n;
         const Vec2 texel(x + (i % n + 0.5) / n, y + (row + 0.5) / n);
         const Vec3 normal =
-            mirror_normal(ball, environment_direction({texel.x() / width, texel.y() / height}));
+            mirror_normal(ball, light::environment_direction({texel.x() / width, texel.y() / height}));
         const double cosine = normal.dot(-(ball.centre + normal).normalized());
         if (cosine <= 0 || std::sqrt(1 - std::min(1.0, cosine * cosine)) > farthest) continue;
         points.emplace_back(camera.project(ball.centre + normal).cast<float>());
@@ -99,4 +99,4 @@ Image mirror_ball_environment(const Frame& frame, const Camera& camera, const Sp
   return map;
 }
 
-}  // namespace sateen
+}  // namespace sateen::capture

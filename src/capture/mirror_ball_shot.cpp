@@ -6,7 +6,7 @@
 #include "sateen/capture/mirror_ball.h"
 #include "sateen/core/error.h"
 
-namespace sateen {
+namespace sateen::capture {
 namespace {
 
 constexpr int kEnvironmentWidth = 512;
@@ -20,7 +20,7 @@ Image mirror_ball_shot(const CaptureOptions& options, const FirstLook& look, con
     throw Error(fmt::format("{}: is {} x {}, the frames are {} x {}", options.mirror_ball.string(),
                             source.width(), source.height(), camera.width, camera.height));
   }
-  const Frame frame = source.read(0);
+  const Photograph frame = source.read(0);
   const GreyPicture grey = grey_picture(frame, look.factor);
   Vec2 centre = look.centre;
   double radius = look.outline.radius;
@@ -42,4 +42,4 @@ Image mirror_ball_shot(const CaptureOptions& options, const FirstLook& look, con
   return mirror_ball_environment(frame, camera, ball, kEnvironmentWidth, options.mirror_reflectance);
 }
 
-}  // namespace sateen
+}  // namespace sateen::capture

@@ -10,7 +10,7 @@
 #include "sateen/core/error.h"
 #include "sateen/core/parallel.h"
 
-namespace sateen {
+namespace sateen::capture {
 namespace {
 
 constexpr int kAzimuths = 240;
@@ -340,4 +340,4 @@ OutlineFit fit_outlines(std::span<const GreyPicture> frames, const Scouting& sco
   return fit;
 }
 
-}  // namespace sateen
+}  // namespace sateen::capture

@@ -7,7 +7,7 @@
 #include "sateen/capture/scout.h"
 #include "sateen/capture/sphere_view.h"
 
-namespace sateen {
+namespace sateen::capture {
 
 /// The background around the sphere as light, where some frame shows it; 0 where none does (negative).
 struct Plate {
@@ -49,4 +49,4 @@ std::vector<Vec2> mean_outline(std::span<const GreyPicture> frames, const Scouti
 /// camera is `camera`. Throws Error when no outline stands out against the background.
 OutlineFit fit_outlines(std::span<const GreyPicture> frames, const Scouting& scouting, const Camera& camera);
 
-}  // namespace sateen
+}  // namespace sateen::capture

@@ -3,7 +3,7 @@
 
 #include "sateen/core/progress.h"
 
-namespace sateen {
+namespace sateen::capture {
 
 /// The part of `whole` from one fraction to another.
 inline Progress part_of(const Progress& whole, double from, double to) {
@@ -11,4 +11,4 @@ inline Progress part_of(const Progress& whole, double from, double to) {
   return [whole, from, to](double fraction) { whole(from + (to - from) * fraction); };
 }
 
-}  // namespace sateen
+}  // namespace sateen::capture

@@ -7,7 +7,7 @@
 #include "sateen/capture/median.h"
 #include "sateen/core/parallel.h"
 
-namespace sateen {
+namespace sateen::capture {
 namespace {
 
 constexpr std::size_t kFewest = 60;  // still points below which nothing is corrected
@@ -32,7 +32,7 @@ StillPoints still_points(const Scouting& scouting, int grey_width, int grey_heig
   return points;
 }
 
-std::vector<Vec3f> sample_still_points(const StillPoints& points, const Frame& frame) {
+std::vector<Vec3f> sample_still_points(const StillPoints& points, const Photograph& frame) {
   std::vector<Vec3f> samples;
   samples.reserve(points.pixels.size());
   for (const Eigen::Vector2i& p : points.pixels) {
@@ -110,4 +110,4 @@ Photometry solve_photometry(std::span<const std::vector<Vec3f>> samples, const S
   return result;
 }
 
-}  // namespace sateen
+}  // namespace sateen::capture

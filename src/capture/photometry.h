@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "sateen/capture/frame.h"
+#include "sateen/capture/photograph.h"
 #include "sateen/capture/scout.h"
 
-namespace sateen {
+namespace sateen::capture {
 
 /// Where the picture stands still: pixels of the full-size frames, spread evenly.
 struct StillPoints {
@@ -21,7 +21,7 @@ StillPoints still_points(const Scouting& scouting, int grey_width, int grey_heig
                          double clearance, std::size_t count = 1000);
 
 /// The light at each still point of a frame, mean over 3 x 3 pixels; negative where clipped.
-std::vector<Vec3f> sample_still_points(const StillPoints& points, const Frame& frame);
+std::vector<Vec3f> sample_still_points(const StillPoints& points, const Photograph& frame);
 
 /// Exposure and white balance of each frame relative to the mean of the capture.
 struct Photometry {
@@ -38,4 +38,4 @@ struct Photometry {
 Photometry solve_photometry(std::span<const std::vector<Vec3f>> samples, const StillPoints& points,
                             int height);
 
-}  // namespace sateen
+}  // namespace sateen::capture

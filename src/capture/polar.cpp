@@ -9,7 +9,7 @@
 #include "sateen/core/direction.h"
 #include "sateen/core/parallel.h"
 
-namespace sateen {
+namespace sateen::capture {
 namespace {
 
 constexpr int kRings = 40;
@@ -201,4 +201,4 @@ double PolarPictures::contradiction(const std::vector<double>& angles) const {
   return median(heights) < 2 * kChance ? 0 : median(apart);
 }
 
-}  // namespace sateen
+}  // namespace sateen::capture

@@ -7,7 +7,7 @@
 
 #include "sateen/core/vector.h"
 
-namespace sateen {
+namespace sateen::capture {
 
 /// Frames registered by turning about one axis.
 struct PolarTurning {
@@ -44,4 +44,4 @@ class PolarPictures {
   std::vector<cv::Mat> spectra_;  // per frame: rings x frequencies, complex
 };
 
-}  // namespace sateen
+}  // namespace sateen::capture

@@ -8,7 +8,7 @@
 #include "sateen/core/direction.h"
 #include "sateen/core/parallel.h"
 
-namespace sateen {
+namespace sateen::capture {
 namespace {
 
 constexpr int kMostSamples = 8;  // across a texel
@@ -77,7 +77,7 @@ PixelRect RectifyMap::region(std::span<const Vec2> centres, int width, int heigh
   return {left, top, inside(reach.max().x() + 2, width) - left, inside(reach.max().y() + 2, height) - top};
 }
 
-RectifiedFrame rectify(const RectifyMap& map, const Frame& frame, const Vec2& centre, const Vec3& gain) {
+RectifiedFrame rectify(const RectifyMap& map, const Photograph& frame, const Vec2& centre, const Vec3& gain) {
   const int size = map.size_;
   const int n = map.samples_;
   const int fine = size * n;
@@ -117,4 +117,4 @@ RectifiedFrame rectify(const RectifyMap& map, const Frame& frame, const Vec2& ce
   return result;
 }
 
-}  // namespace sateen
+}  // namespace sateen::capture

@@ -6,11 +6,11 @@
 #include <utility>
 #include <vector>
 
-#include "sateen/capture/frame.h"
+#include "sateen/capture/photograph.h"
 #include "sateen/capture/sphere_view.h"
 #include "sateen/capture/still_mask.h"
 
-namespace sateen {
+namespace sateen::capture {
 
 struct RectifiedFrame;
 
@@ -51,7 +51,7 @@ class RectifyMap {
   std::vector<SeenPoint> points_;
   StillMask mask_;
 
-  friend RectifiedFrame rectify(const RectifyMap& map, const Frame& frame, const Vec2& centre,
+  friend RectifiedFrame rectify(const RectifyMap& map, const Photograph& frame, const Vec2& centre,
                                 const Vec3& gain);
 };
 
@@ -64,6 +64,6 @@ struct RectifiedFrame {
 };
 
 /// `centre` is where this frame's sphere centre is seen, pixels; the light is divided by `gain`.
-RectifiedFrame rectify(const RectifyMap& map, const Frame& frame, const Vec2& centre, const Vec3& gain);
+RectifiedFrame rectify(const RectifyMap& map, const Photograph& frame, const Vec2& centre, const Vec3& gain);
 
-}  // namespace sateen
+}  // namespace sateen::capture

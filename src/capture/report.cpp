@@ -14,7 +14,7 @@
 #include "sateen/io/file.h"
 #include "sateen/io/image.h"
 
-namespace sateen {
+namespace sateen::capture {
 namespace fs = std::filesystem;
 
 namespace {
@@ -38,8 +38,8 @@ std::string base64(const std::vector<std::byte>& bytes) {
 /// A picture as a data URL. The file writer goes through a file, which lives beside the report for a moment.
 std::string data_url(const fs::path& folder, const Image& image) {
   const fs::path temporary = folder / fmt::format(".picture-{}.png", getpid());
-  write_image(temporary, image);
-  const auto bytes = read_bytes(temporary);
+  io::write_image(temporary, image);
+  const auto bytes = io::read_bytes(temporary);
   fs::remove(temporary);
   return "data:image/png;base64," + base64(bytes);
 }
@@ -90,12 +90,12 @@ std::string chart(const CaptureResult& result, const std::string& title, const s
 }
 
 /// How alike the material is after each turn, with the threshold from which it counts as the same.
-std::string symmetry_chart(const SymmetryReport& symmetry) {
+std::string symmetry_chart(const amc::SymmetryReport& symmetry) {
   constexpr double kMost = 60;  // dB: alike for every purpose
   const auto across = [=](double psnr) { return 64 + 376 * std::clamp(psnr, 0.0, kMost) / kMost; };
   std::string bars;
   double y = 16;
-  for (const Similarity& s : symmetry.similarities) {
+  for (const amc::Similarity& s : symmetry.similarities) {
     if (s.turns < 2) continue;
     bars += fmt::format(
         "<rect x='64' y='{0:.0f}' width='{1:.1f}' height='20' class='{2}'/><text x='58' y='{3:.0f}' "
@@ -211,7 +211,7 @@ std::string facts(const CaptureResult& result) {
                            100 * result.clipped_share));
   row("Seams", fmt::format("{:.1f} % of the surface masked", 100 * result.mask.share));
   std::string similar;
-  for (const Similarity& s : result.symmetry.similarities) {
+  for (const amc::Similarity& s : result.symmetry.similarities) {
     if (s.turns > 1)
       similar += fmt::format("{}R = {}: {:.1f} dB", similar.empty() ? "" : ", ", s.turns, s.psnr);
   }
@@ -230,7 +230,7 @@ void write_report(const fs::path& folder, const CaptureResult& result) {
   if (code || !fs::is_directory(folder)) {
     throw Error(fmt::format("{}: cannot be made as a folder for the report", folder.string()));
   }
-  write_text(folder / "report.json", report_json(result));
+  io::write_text(folder / "report.json", report_json(result));
 
   std::string warnings;
   for (const std::string& warning : result.warnings) warnings += "<li>" + escaped(warning) + ".</li>";
@@ -261,7 +261,8 @@ void write_report(const fs::path& folder, const CaptureResult& result) {
       "<div class='row'>{}{}{}{}</div><h2>Symmetry</h2><div class='row'>{}</div><h2>Seams and highlights</h2>"
       "<div class='row'>{}{}</div>{}</html>\n",
       kStyle, verdict, facts(result), framing(result, data_url(folder, result.preview)),
-      picture(contact_sheet(result.table), "Slices at eight tangent angles, and two cuts along the angle"),
+      picture(amc::contact_sheet(result.table),
+              "Slices at eight tangent angles, and two cuts along the angle"),
       chart(result, "Turned", "degrees", [](const CaptureFrame& f) { return degrees(f.turned); }),
       chart(result, "Exposure", "relative", [](const CaptureFrame& f) { return f.gain.y(); }),
       chart(result, "Centre across", "pixels",
@@ -270,7 +271,7 @@ void write_report(const fs::path& folder, const CaptureResult& result) {
       symmetry_chart(result.symmetry),
       picture(mask_picture(result), "The surface as it lies in the first frame; red: masked"),
       picture(clipped_picture(result), "Bright: clipped in many frames"), dropped);
-  write_text(folder / "report.html", html);
+  io::write_text(folder / "report.html", html);
 }
 
-}  // namespace sateen
+}  // namespace sateen::capture

@@ -6,7 +6,7 @@
 
 #include "sateen/capture/capture.h"
 
-namespace sateen {
+namespace sateen::capture {
 
 /// The report as JSON text: `frames` (file, angle_degrees, turned_degrees, center, radius, exposure,
 /// white_balance, sharpness, used, dropped), `sphere`, `camera`, `axis`, `turn`, `photometry`, `symmetry`,
@@ -18,4 +18,4 @@ std::string report_json(const CaptureResult& result);
 /// Throws Error when it cannot be written.
 void write_report(const std::filesystem::path& folder, const CaptureResult& result);
 
-}  // namespace sateen
+}  // namespace sateen::capture

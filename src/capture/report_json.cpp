@@ -6,7 +6,7 @@
 #include "sateen/capture/advice.h"
 #include "sateen/capture/report.h"
 
-namespace sateen {
+namespace sateen::capture {
 namespace {
 
 double rounded(double value, double step) {
@@ -73,7 +73,7 @@ std::string report_json(const CaptureResult& result) {
                         {"banding", fine(result.photometry.banding)},
                         {"clipped", fine(result.clipped_share)}};
   json["symmetry"] = {{"R", result.table.symmetry}, {"isotropic", result.table.isotropic}};
-  for (const Similarity& similarity : result.symmetry.similarities) {
+  for (const amc::Similarity& similarity : result.symmetry.similarities) {
     json["symmetry"]["psnr_db"][std::to_string(similarity.turns)] = rounded(similarity.psnr, 0.01);
   }
   json["mask"] = {{"share", fine(result.mask.share)}};
@@ -83,4 +83,4 @@ std::string report_json(const CaptureResult& result) {
   return json.dump(2) + "\n";
 }
 
-}  // namespace sateen
+}  // namespace sateen::capture

@@ -8,7 +8,7 @@
 #include "sateen/capture/used_frames.h"
 #include "sateen/capture/wobble.h"
 
-namespace sateen {
+namespace sateen::capture {
 
 Rig find_rig(const std::vector<FrameNotes>& notes, const FirstLook& look, const Camera& camera,
              std::vector<CaptureFrame>& frames, std::vector<std::string>& warnings) {
@@ -48,4 +48,4 @@ Rig find_rig(const std::vector<FrameNotes>& notes, const FirstLook& look, const 
   return rig;
 }
 
-}  // namespace sateen
+}  // namespace sateen::capture

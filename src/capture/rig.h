@@ -6,7 +6,7 @@
 
 #include "sateen/capture/measure.h"
 
-namespace sateen {
+namespace sateen::capture {
 
 /// How the sphere sits on its stand.
 struct Rig {
@@ -21,4 +21,4 @@ struct Rig {
 Rig find_rig(const std::vector<FrameNotes>& notes, const FirstLook& look, const Camera& camera,
              std::vector<CaptureFrame>& frames, std::vector<std::string>& warnings);
 
-}  // namespace sateen
+}  // namespace sateen::capture

@@ -12,13 +12,13 @@
 #include "sateen/core/error.h"
 #include "sateen/core/parallel.h"
 
-namespace sateen {
+namespace sateen::capture {
 
 int grey_factor(int width, int height) {
   return std::max(1, (std::max(width, height) + 1279) / 1280);
 }
 
-GreyPicture grey_picture(const Frame& frame, int factor) {
+GreyPicture grey_picture(const Photograph& frame, int factor) {
   GreyPicture picture;
   grey_picture(frame, factor, {0, 0, frame.width() / factor, frame.height() / factor}, picture);
   return picture;
@@ -26,12 +26,12 @@ GreyPicture grey_picture(const Frame& frame, int factor) {
 
 namespace {
 
-/// The code of all light from 0 to Frame::kWhite.
+/// The code of all light from 0 to Photograph::kWhite.
 const std::vector<std::uint8_t>& codes_of_light() {
   static const std::vector<std::uint8_t> codes = [] {
-    std::vector<std::uint8_t> table(Frame::kWhite + 1);
+    std::vector<std::uint8_t> table(Photograph::kWhite + 1);
     for (std::size_t light = 0; light < table.size(); ++light) {
-      const double share = static_cast<double>(light) / Frame::kWhite;
+      const double share = static_cast<double>(light) / Photograph::kWhite;
       table[light] = static_cast<std::uint8_t>(std::lround(255 * std::sqrt(share)));
     }
     return table;
@@ -41,7 +41,7 @@ const std::vector<std::uint8_t>& codes_of_light() {
 
 }  // namespace
 
-void grey_picture(const Frame& frame, int factor, const GreyRegion& region, GreyPicture& picture) {
+void grey_picture(const Photograph& frame, int factor, const GreyRegion& region, GreyPicture& picture) {
   picture.width = frame.width() / factor;
   picture.height = frame.height() / factor;
   picture.codes.resize(static_cast<std::size_t>(picture.width) * static_cast<std::size_t>(picture.height));
@@ -358,4 +358,4 @@ Scouting find_sphere(std::span<const GreyPicture> frames, int factor) {
   return s;
 }
 
-}  // namespace sateen
+}  // namespace sateen::capture

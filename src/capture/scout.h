@@ -5,10 +5,10 @@
 #include <span>
 #include <vector>
 
-#include "sateen/capture/frame.h"
+#include "sateen/capture/photograph.h"
 #include "sateen/core/vector.h"
 
-namespace sateen {
+namespace sateen::capture {
 
 /// A grey picture for finding things: 255 sqrt(light), so that sensor noise is about the same everywhere,
 /// scaled down by a whole factor so that its long side is at most about 1280 pixels.
@@ -30,10 +30,10 @@ struct GreyRegion {
   int bottom = 0;
 };
 
-GreyPicture grey_picture(const Frame& frame, int factor);
+GreyPicture grey_picture(const Photograph& frame, int factor);
 
 /// Only `region`, into a picture that is there: what lies outside of it, 0 at first, stays as it is.
-void grey_picture(const Frame& frame, int factor, const GreyRegion& region, GreyPicture& picture);
+void grey_picture(const Photograph& frame, int factor, const GreyRegion& region, GreyPicture& picture);
 
 /// What a few frames of a capture, spread over the turn, say of where the turning sphere is. In pixels of
 /// GreyPicture.
@@ -53,4 +53,4 @@ struct Scouting {
 /// edge, or the camera moved; `factor`: pixels of the photographs to one of `frames`, for what it says.
 Scouting find_sphere(std::span<const GreyPicture> frames, int factor);
 
-}  // namespace sateen
+}  // namespace sateen::capture

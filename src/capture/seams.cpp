@@ -6,11 +6,11 @@
 #include "sateen/core/error.h"
 #include "sateen/io/image.h"
 
-namespace sateen {
+namespace sateen::capture {
 namespace {
 
 SurfaceMask painted_mask(const CaptureOptions& options, const CaptureResult& result) {
-  const Image painting = read_data(options.mask);
+  const Image painting = io::read_data(options.mask);
   if (painting.width != result.camera.width || painting.height != result.camera.height) {
     throw Error(fmt::format("{}: is {} x {}, the frames are {} x {}", options.mask.string(), painting.width,
                             painting.height, result.camera.width, result.camera.height));
@@ -41,4 +41,4 @@ SurfaceMask find_seams(const RectifiedStack& stack, const CaptureOptions& option
   return united(found, painted);
 }
 
-}  // namespace sateen
+}  // namespace sateen::capture

@@ -13,7 +13,7 @@
 
 #include "sateen/core/error.h"
 
-namespace sateen {
+namespace sateen::capture {
 namespace {
 
 speed_t speed_of(int baud) {
@@ -103,4 +103,4 @@ void SerialLine::clear() {
   pending_.clear();
 }
 
-}  // namespace sateen
+}  // namespace sateen::capture

@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-namespace sateen {
+namespace sateen::capture {
 
 /// A serial line (or anything that looks like one to termios) in raw mode, read by lines.
 class SerialLine {
@@ -31,4 +31,4 @@ class SerialLine {
   std::string pending_;
 };
 
-}  // namespace sateen
+}  // namespace sateen::capture

@@ -12,7 +12,7 @@
 #include "sateen/core/direction.h"
 #include "sateen/core/parallel.h"
 
-namespace sateen {
+namespace sateen::capture {
 namespace {
 
 constexpr double kReach = kPatchReach * kPatchReach * 0.96;  // of the patch's disc, squared
@@ -236,4 +236,4 @@ void TurningRefinement::round(bool refine_angles, bool quick, Turning& turning) 
   turning.step_error = std::sqrt(squares / static_cast<double>(n));
 }
 
-}  // namespace sateen
+}  // namespace sateen::capture

@@ -8,7 +8,7 @@
 
 #include "sateen/capture/turning.h"
 
-namespace sateen {
+namespace sateen::capture {
 
 /// Patches as floats, less what stands still in them (shading, the stand, the lens): that is no surface.
 std::vector<cv::Mat> moving_detail(std::span<const SurfacePatch> patches);
@@ -72,4 +72,4 @@ class TurningRefinement {
   PatchNormals some_;
 };
 
-}  // namespace sateen
+}  // namespace sateen::capture

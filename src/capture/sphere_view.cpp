@@ -6,7 +6,7 @@
 
 #include "sateen/core/direction.h"
 
-namespace sateen {
+namespace sateen::capture {
 
 double SphereView::half_angle() const {
   return std::asin(std::min(1.0, 1 / distance()));
@@ -80,4 +80,4 @@ Mat3 table_frame(const SeenPoint& point, TableFrame frame) {
   return frame == TableFrame::eye ? eye_frame(point.towards_eye) : Mat3(Mat3::Identity());
 }
 
-}  // namespace sateen
+}  // namespace sateen::capture

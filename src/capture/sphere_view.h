@@ -4,7 +4,7 @@
 #include "sateen/capture/camera.h"
 #include "sateen/core/vector.h"
 
-namespace sateen {
+namespace sateen::capture {
 
 /// In which frame a table's normals are expressed when the camera sees the sphere in perspective.
 enum class TableFrame {
@@ -47,4 +47,4 @@ SeenPoint point_of_disc(const SphereView& sphere, const Vec2& disc, TableFrame f
 /// Rotation from view space to the table's frame at that point: identity for TableFrame::view.
 Mat3 table_frame(const SeenPoint& point, TableFrame frame);
 
-}  // namespace sateen
+}  // namespace sateen::capture

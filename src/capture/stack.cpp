@@ -6,7 +6,7 @@
 
 #include "sateen/core/direction.h"
 
-namespace sateen {
+namespace sateen::capture {
 namespace {
 
 const double kBelowOne = std::nextafter(1.0, 0.0);
@@ -36,4 +36,4 @@ double TangentAngle::at(const Vec2& pole) const {
   return turns < 0 ? std::min(turns + 1, kBelowOne) : turns;
 }
 
-}  // namespace sateen
+}  // namespace sateen::capture

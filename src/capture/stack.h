@@ -7,7 +7,7 @@
 
 #include "sateen/capture/rectify.h"
 
-namespace sateen {
+namespace sateen::capture {
 
 /// All rectified frames of a capture, ascending in angle, with what ties them together.
 struct RectifiedStack {
@@ -52,4 +52,4 @@ class TangentAngle {
   Vec2 sine_;
 };
 
-}  // namespace sateen
+}  // namespace sateen::capture

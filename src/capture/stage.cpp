@@ -8,7 +8,7 @@
 #include "sateen/capture/serial.h"
 #include "sateen/core/error.h"
 
-namespace sateen {
+namespace sateen::capture {
 namespace {
 
 using std::chrono::milliseconds;
@@ -176,4 +176,4 @@ std::unique_ptr<Stage> continuous_stage(std::chrono::milliseconds turn) {
   return std::make_unique<ContinuousStage>(turn);
 }
 
-}  // namespace sateen
+}  // namespace sateen::capture

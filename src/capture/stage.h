@@ -7,7 +7,7 @@
 #include <optional>
 #include <string>
 
-namespace sateen {
+namespace sateen::capture {
 
 /// What turns the sphere.
 class Stage {
@@ -46,4 +46,4 @@ std::unique_ptr<Stage> manual_stage(std::function<void(const std::string&)> prom
 /// gives them.
 std::unique_ptr<Stage> continuous_stage(std::chrono::milliseconds turn);
 
-}  // namespace sateen
+}  // namespace sateen::capture

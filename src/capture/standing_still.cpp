@@ -10,7 +10,7 @@
 
 #include "sateen/capture/median.h"
 
-namespace sateen {
+namespace sateen::capture {
 namespace {
 
 constexpr double kStandContrast = 8;  // codes
@@ -124,4 +124,4 @@ StillMask find_stand(const FirstLook& look, std::vector<std::string>& warnings) 
   return stand;
 }
 
-}  // namespace sateen
+}  // namespace sateen::capture

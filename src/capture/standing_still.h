@@ -7,10 +7,10 @@
 #include "sateen/capture/measure.h"
 #include "sateen/capture/still_mask.h"
 
-namespace sateen {
+namespace sateen::capture {
 
 /// A stand in front of the sphere does not turn: where it reaches in from the outline, the picture is no more
 /// active than the background. Warns of it. Empty when nothing stands in front.
 StillMask find_stand(const FirstLook& look, std::vector<std::string>& warnings);
 
-}  // namespace sateen
+}  // namespace sateen::capture

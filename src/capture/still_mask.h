@@ -6,7 +6,7 @@
 
 #include "sateen/core/image.h"
 
-namespace sateen {
+namespace sateen::capture {
 
 /// Pixels that do not show the sphere though they lie inside its outline: a stand in front.
 struct StillMask {
@@ -22,4 +22,4 @@ struct StillMask {
   }
 };
 
-}  // namespace sateen
+}  // namespace sateen::capture

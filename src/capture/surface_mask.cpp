@@ -14,7 +14,7 @@
 #include "sateen/core/direction.h"
 #include "sateen/core/parallel.h"
 
-namespace sateen {
+namespace sateen::capture {
 namespace {
 
 constexpr double kNear = 0.06;      // radians: neighbours closer than this may still show the blemish itself
@@ -417,4 +417,4 @@ bool mask_direction(const SurfaceMask& mask, double& direction) {
   return true;
 }
 
-}  // namespace sateen
+}  // namespace sateen::capture

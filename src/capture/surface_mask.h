@@ -7,7 +7,7 @@
 #include "sateen/capture/stack.h"
 #include "sateen/core/image.h"
 
-namespace sateen {
+namespace sateen::capture {
 
 /// Seams, folds and cuts: the part of the turning body that shows no clean material. A size x size picture
 /// (row 0 on top) of the body at angle 0 along the axis: pixel (x, y) is the body_point disc_of_pixel(x, y,
@@ -43,4 +43,4 @@ SurfaceMask united(const SurfaceMask& a, const SurfaceMask& b);
 /// the middle, if it lies clearly to one side: false otherwise.
 bool mask_direction(const SurfaceMask& mask, double& direction);
 
-}  // namespace sateen
+}  // namespace sateen::capture

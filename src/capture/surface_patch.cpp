@@ -10,7 +10,7 @@
 
 #include "sateen/core/direction.h"
 
-namespace sateen {
+namespace sateen::capture {
 namespace {
 
 /// The light of every code.
@@ -101,4 +101,4 @@ SurfacePatch PatchMap::patch(const GreyPicture& frame, const Vec2& centre) const
   return patch;
 }
 
-}  // namespace sateen
+}  // namespace sateen::capture

@@ -10,7 +10,7 @@
 #include "sateen/capture/sphere_view.h"
 #include "sateen/capture/still_mask.h"
 
-namespace sateen {
+namespace sateen::capture {
 
 /// The sphere's fine surface detail in one frame, on a disc of the normals in a frame fixed to the camera (z
 /// from the mean sphere's centre to the eye): pixel (x, y), row 0 on top, shows the normal whose disc point
@@ -52,4 +52,4 @@ class PatchMap {
   cv::Mat share_;  // of each pixel's neighbourhood that lies on the disc
 };
 
-}  // namespace sateen
+}  // namespace sateen::capture

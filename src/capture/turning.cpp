@@ -14,7 +14,7 @@
 #include "sateen/core/direction.h"
 #include "sateen/core/parallel.h"
 
-namespace sateen {
+namespace sateen::capture {
 namespace {
 
 constexpr double kPairTurn = radians(12);  // apart enough to show the axis, near enough to look alike
@@ -202,4 +202,4 @@ Turning find_axis(std::span<const SurfacePatch> patches, const Mat3& axes, std::
   return turning;
 }
 
-}  // namespace sateen
+}  // namespace sateen::capture

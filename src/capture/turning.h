@@ -6,7 +6,7 @@
 
 #include "sateen/capture/surface_patch.h"
 
-namespace sateen {
+namespace sateen::capture {
 
 /// How a capture's sphere turned.
 struct Turning {
@@ -35,4 +35,4 @@ Turning find_turning(std::span<const SurfacePatch> patches, const Mat3& axes);
 Turning find_axis(std::span<const SurfacePatch> patches, const Mat3& axes, std::span<const double> angles,
                   bool refine_angles);
 
-}  // namespace sateen
+}  // namespace sateen::capture

@@ -6,7 +6,7 @@
 
 #include "sateen/capture/median.h"
 
-namespace sateen {
+namespace sateen::capture {
 
 std::vector<std::size_t> used_frames(const std::vector<CaptureFrame>& frames) {
   std::vector<std::size_t> indices;
@@ -66,4 +66,4 @@ void drop_duplicates(std::vector<CaptureFrame>& frames) {
   }
 }
 
-}  // namespace sateen
+}  // namespace sateen::capture

@@ -5,7 +5,7 @@
 
 #include "sateen/capture/measure.h"
 
-namespace sateen {
+namespace sateen::capture {
 
 /// CaptureFrame::dropped of a frame that turned by next to nothing.
 inline constexpr const char* kSameAngle = "shows the same angle as the frame before";
@@ -19,4 +19,4 @@ void drop_blurred(const std::vector<FrameNotes>& notes, std::vector<CaptureFrame
 /// Drops frames turned by next to nothing since the frame before.
 void drop_duplicates(std::vector<CaptureFrame>& frames);
 
-}  // namespace sateen
+}  // namespace sateen::capture

@@ -10,7 +10,7 @@
 #include "sateen/core/direction.h"
 #include "sateen/core/parallel.h"
 
-namespace sateen {
+namespace sateen::capture {
 namespace {
 
 using Terms = Eigen::Matrix<double, 10, 1>;
@@ -181,4 +181,4 @@ bool weave_direction(const RectifiedStack& stack, double& direction) {
   return true;
 }
 
-}  // namespace sateen
+}  // namespace sateen::capture

@@ -5,7 +5,7 @@
 
 #include "sateen/capture/median.h"
 
-namespace sateen {
+namespace sateen::capture {
 
 Wobble fit_wobble(const std::vector<Vec2>& centres, const std::vector<double>& angles) {
   Wobble wobble;
@@ -36,4 +36,4 @@ Wobble fit_wobble(const std::vector<Vec2>& centres, const std::vector<double>& a
   return wobble;
 }
 
-}  // namespace sateen
+}  // namespace sateen::capture

@@ -6,7 +6,7 @@
 
 #include "sateen/core/vector.h"
 
-namespace sateen {
+namespace sateen::capture {
 
 /// The circle (an ellipse, when the axis is tilted) that a sphere not mounted centrically describes in the
 /// picture.
@@ -22,4 +22,4 @@ struct Wobble {
 /// Robust fit to one centre (pixels) and angle (radians) a frame.
 Wobble fit_wobble(const std::vector<Vec2>& centres, const std::vector<double>& angles);
 
-}  // namespace sateen
+}  // namespace sateen::capture

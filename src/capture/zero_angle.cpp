@@ -6,7 +6,7 @@
 #include "sateen/capture/weave.h"
 #include "sateen/core/error.h"
 
-namespace sateen {
+namespace sateen::capture {
 namespace {
 
 double turned_of(const CaptureResult& result, int frame) {
@@ -62,4 +62,4 @@ double find_first_angle(const RectifiedStack& stack, const CaptureOptions& optio
   return options.zero_angle;
 }
 
-}  // namespace sateen
+}  // namespace sateen::capture

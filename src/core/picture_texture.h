@@ -3,8 +3,8 @@
 
 #include <span>
 
-#include "sateen/core/appearance.h"
 #include "sateen/core/image.h"
+#include "sateen/core/texture_data.h"
 
 namespace sateen {
 

@@ -8,7 +8,7 @@
 #include "sateen/geometry/tangents.h"
 #include "sateen/geometry/weld.h"
 
-namespace sateen {
+namespace sateen::geometry {
 namespace {
 
 // An orthonormal pair in a plane.
@@ -134,4 +134,4 @@ PrincipalCurvatures compute_curvature(Mesh& mesh) {
   return result;
 }
 
-}  // namespace sateen
+}  // namespace sateen::geometry

@@ -5,7 +5,7 @@
 
 #include "sateen/core/mesh.h"
 
-namespace sateen {
+namespace sateen::geometry {
 
 /// Principal curvatures per vertex, in 1 / length unit of the mesh, positive where the surface is convex
 /// (bends away from its outward normal). The directions are lines across the normal: a direction equals its
@@ -23,4 +23,4 @@ struct PrincipalCurvatures {
 /// triangle gets 0.
 PrincipalCurvatures compute_curvature(Mesh& mesh);
 
-}  // namespace sateen
+}  // namespace sateen::geometry

@@ -21,7 +21,7 @@
 #include "sateen/geometry/tangents.h"
 #include "sateen/geometry/weld.h"
 
-namespace sateen {
+namespace sateen::geometry {
 namespace {
 
 // Rays start this share of the mesh's diagonal above the surface: clear of rounding and of the facets around
@@ -141,4 +141,4 @@ void compute_occlusion(Mesh& mesh, int rays, double reach, const Progress& progr
   });
 }
 
-}  // namespace sateen
+}  // namespace sateen::geometry

@@ -9,7 +9,7 @@
 #include "sateen/core/direction.h"
 #include "sateen/geometry/weld.h"
 
-namespace sateen {
+namespace sateen::geometry {
 namespace {
 
 using Link = std::pair<std::uint32_t, std::uint32_t>;  // (vertex to fill, neighbour)
@@ -109,4 +109,4 @@ void fill_tangents(Mesh& mesh, const std::vector<char>& known) {
   }
 }
 
-}  // namespace sateen
+}  // namespace sateen::geometry

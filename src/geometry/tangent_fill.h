@@ -5,7 +5,7 @@
 
 #include "sateen/core/mesh.h"
 
-namespace sateen {
+namespace sateen::geometry {
 
 /// The part of `direction` orthogonal to the unit `normal`; not normalized.
 inline Vec3 across(const Vec3& direction, const Vec3& normal) {
@@ -19,4 +19,4 @@ inline Vec3 across(const Vec3& direction, const Vec3& normal) {
 /// filled vertex is its neighbours', or 1.
 void fill_tangents(Mesh& mesh, const std::vector<char>& known);
 
-}  // namespace sateen
+}  // namespace sateen::geometry

@@ -9,7 +9,7 @@
 #include "sateen/geometry/tangent_fill.h"
 #include "sateen/geometry/weld.h"
 
-namespace sateen {
+namespace sateen::geometry {
 namespace {
 
 // Twice the area over the square of the longest side, below which a triangle is a sliver: its gradient is
@@ -208,4 +208,4 @@ void rotate_tangents(Mesh& mesh, double angle) {
   }
 }
 
-}  // namespace sateen
+}  // namespace sateen::geometry

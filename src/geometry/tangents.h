@@ -3,7 +3,7 @@
 
 #include "sateen/core/mesh.h"
 
-namespace sateen {
+namespace sateen::geometry {
 
 /// Fills mesh.normals where the mesh has none: area-weighted over the vertices at the same position, so that
 /// UV seams stay smooth; unit everywhere, a vertex without area gets +z.
@@ -24,4 +24,4 @@ void set_tangents_along(Mesh& mesh, const Vec3f& axis);
 /// Turns every tangent about its normal by `angle` radians, counter-clockwise seen from outside.
 void rotate_tangents(Mesh& mesh, double angle);
 
-}  // namespace sateen
+}  // namespace sateen::geometry

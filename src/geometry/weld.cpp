@@ -3,7 +3,7 @@
 
 #include "sateen/core/first_equal.h"
 
-namespace sateen {
+namespace sateen::geometry {
 
 std::uint64_t position_hash(const Vec3f& position) {
   return mix_hash(mix_hash(mix_hash(0, hash_bits(position.x())), hash_bits(position.y())),
@@ -17,4 +17,4 @@ std::vector<std::uint32_t> weld_positions(std::span<const Vec3f> positions) {
       [&](std::uint32_t i, std::uint32_t j) { return positions[i] == positions[j]; });
 }
 
-}  // namespace sateen
+}  // namespace sateen::geometry

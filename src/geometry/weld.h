@@ -7,7 +7,7 @@
 
 #include "sateen/core/vector.h"
 
-namespace sateen {
+namespace sateen::geometry {
 
 /// A hash of the exact coordinates; the two zeros count as one.
 std::uint64_t position_hash(const Vec3f& position);
@@ -16,4 +16,4 @@ std::uint64_t position_hash(const Vec3f& position);
 /// normal seam has split share one index.
 std::vector<std::uint32_t> weld_positions(std::span<const Vec3f> positions);
 
-}  // namespace sateen
+}  // namespace sateen::geometry

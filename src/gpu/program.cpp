@@ -124,7 +124,7 @@ void Program::use() const {
   glUseProgram(handle_.name());
 }
 
-void Program::set(const std::string& name, const UniformValue& value) const {
+void Program::set(const std::string& name, const appearance::UniformValue& value) const {
   const GLint location = glGetUniformLocation(handle_.name(), name.c_str());
   if (location >= 0) std::visit(SetUniform{location}, value);
 }

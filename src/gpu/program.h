@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "sateen/core/appearance.h"
+#include "sateen/appearance/appearance.h"
 #include "sateen/gpu/handle.h"
 #include "sateen/gpu/shaders.h"
 
@@ -27,7 +27,7 @@ class Program {
 
   /// Sets a uniform; the program must be in use. A name the compiled program does not read is ignored: a
   /// variant may not need what another does.
-  void set(const std::string& name, const UniformValue& value) const;
+  void set(const std::string& name, const appearance::UniformValue& value) const;
 
  private:
   Handle handle_;

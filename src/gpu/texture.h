@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "sateen/core/appearance.h"
+#include "sateen/core/texture_data.h"
 #include "sateen/gpu/handle.h"
 
 namespace sateen::gpu {

@@ -12,7 +12,7 @@
 
 #include "sateen/core/error.h"
 
-namespace sateen {
+namespace sateen::io {
 namespace {
 
 constexpr std::uint32_t kDxgiBc5 = 83;
@@ -66,4 +66,4 @@ Image decode_blocks(VkFormat format, std::span<const std::byte> blocks, int widt
   return image;
 }
 
-}  // namespace sateen
+}  // namespace sateen::io

@@ -13,7 +13,7 @@
 
 #include "sateen/core/error.h"
 
-namespace sateen {
+namespace sateen::io {
 namespace {
 
 namespace fs = std::filesystem;
@@ -196,4 +196,4 @@ std::string extension_of(const fs::path& path) {
   return extension;
 }
 
-}  // namespace sateen
+}  // namespace sateen::io

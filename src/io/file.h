@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace sateen {
+namespace sateen::io {
 
 /// Runs `write` on a temporary name beside `target` (same extension, same folder) and renames it to `target`
 /// when `write` returned; on any exception the temporary file is removed and an older target stays as it was.
@@ -40,4 +40,4 @@ std::vector<std::filesystem::path> expand_inputs(const std::vector<std::filesyst
 /// The extension in lower case with its dot, ".png"; empty if there is none.
 std::string extension_of(const std::filesystem::path& path);
 
-}  // namespace sateen
+}  // namespace sateen::io

@@ -8,11 +8,11 @@
 
 #include "sateen/core/error.h"
 
-namespace sateen {
+namespace sateen::io {
 
 /// Throws Error: the file, then what is wrong with it.
 [[noreturn]] inline void fail(const std::filesystem::path& path, const std::string& what) {
   throw Error(fmt::format("{}: {}", path.string(), what));
 }
 
-}  // namespace sateen
+}  // namespace sateen::io

@@ -15,7 +15,7 @@
 #include "sateen/io/file_error.h"
 #include "sateen/io/mesh_material.h"
 
-namespace sateen {
+namespace sateen::io {
 namespace {
 
 namespace fs = std::filesystem;
@@ -152,4 +152,4 @@ void check_gltf(const fs::path& path) {
   }
 }
 
-}  // namespace sateen
+}  // namespace sateen::io

@@ -15,7 +15,7 @@
 #include "sateen/io/image_error.h"
 #include "sateen/io/jpeg.h"
 
-namespace sateen {
+namespace sateen::io {
 namespace {
 
 namespace fs = std::filesystem;
@@ -213,4 +213,4 @@ Image read_data(const fs::path& path, bool allow_non_finite) {
   return decode(path, {.encoding = Encoding::linear, .allow_non_finite = allow_non_finite}).image;
 }
 
-}  // namespace sateen
+}  // namespace sateen::io

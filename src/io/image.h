@@ -9,7 +9,7 @@
 
 #include "sateen/core/image.h"
 
-namespace sateen {
+namespace sateen::io {
 
 /// How the colour channels of a picture file are encoded.
 enum class Encoding {
@@ -67,4 +67,4 @@ struct ImageLayer {
 };
 void write_layers(const std::filesystem::path& path, std::span<const ImageLayer> layers);
 
-}  // namespace sateen
+}  // namespace sateen::io

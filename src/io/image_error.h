@@ -5,7 +5,7 @@
 
 #include "sateen/io/file_error.h"
 
-namespace sateen {
+namespace sateen::io {
 
 /// OpenImageIO's message in the shape of ours: no newline, no full stop at its end.
 inline std::string image_reason(std::string message) {
@@ -13,4 +13,4 @@ inline std::string image_reason(std::string message) {
   return message.empty() ? "unknown reason" : message;
 }
 
-}  // namespace sateen
+}  // namespace sateen::io

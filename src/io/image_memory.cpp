@@ -10,7 +10,7 @@
 
 #include "sateen/core/error.h"
 
-namespace sateen {
+namespace sateen::io {
 namespace {
 
 // OpenCV decodes a cut-off picture without a word and leaves the rest grey: the end marker has to be there.
@@ -46,4 +46,4 @@ Image read_data_from_memory(std::span<const std::byte> bytes, const std::string&
   return image;
 }
 
-}  // namespace sateen
+}  // namespace sateen::io

@@ -13,7 +13,7 @@
 #include "sateen/io/file.h"
 #include "sateen/io/image_error.h"
 
-namespace sateen {
+namespace sateen::io {
 
 struct ImageRowReader::File {
   // A JPEG is decoded whole: only read_data notices what libjpeg quietly fills with grey.
@@ -141,4 +141,4 @@ void ImageRowWriter::close() {
   if (!file_->file.whole()) fail(name_, "cannot be written: the disk is full");
 }
 
-}  // namespace sateen
+}  // namespace sateen::io

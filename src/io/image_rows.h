@@ -7,7 +7,7 @@
 
 #include "sateen/io/image.h"
 
-namespace sateen {
+namespace sateen::io {
 
 /// Reads a data picture from top to bottom, a few rows at a time, so that pictures larger than memory can be
 /// worked on; a JPEG is held whole. Values as read_data gives them: integers scaled to [0, 1], no colour
@@ -67,4 +67,4 @@ class ImageRowWriter {
   int next_ = 0;
 };
 
-}  // namespace sateen
+}  // namespace sateen::io

@@ -14,7 +14,7 @@
 #include "sateen/io/image_error.h"
 
 // OpenImageIO is heavy to compile: only image.cpp and this file include it.
-namespace sateen {
+namespace sateen::io {
 namespace {
 
 namespace fs = std::filesystem;
@@ -142,4 +142,4 @@ void write_layers(const fs::path& path, std::span<const ImageLayer> layers) {
   write(path, spec, all);
 }
 
-}  // namespace sateen
+}  // namespace sateen::io

@@ -10,7 +10,7 @@
 
 #include "sateen/io/image_error.h"
 
-namespace sateen {
+namespace sateen::io {
 namespace {
 
 /// libjpeg's way out of an error is a jump; the message waits here.
@@ -179,4 +179,4 @@ bool decode_plain_jpeg(const std::filesystem::path& path, std::span<const std::b
   return decode_rows(path, bytes, only, start, place, [](int) {});
 }
 
-}  // namespace sateen
+}  // namespace sateen::io

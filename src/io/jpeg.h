@@ -8,7 +8,7 @@
 #include "sateen/core/image.h"
 #include "sateen/io/picture8.h"
 
-namespace sateen {
+namespace sateen::io {
 
 /// Decodes the rows of `region` of the grey or RGB JPEG file `bytes`, sample k becoming values[k]; nothing is
 /// turned. libjpeg fills what is missing or broken with grey and only warns, and OpenImageIO passes few of
@@ -24,4 +24,4 @@ Image decode_jpeg(const std::filesystem::path& path, std::span<const std::byte> 
 bool decode_plain_jpeg(const std::filesystem::path& path, std::span<const std::byte> bytes, Picture8& picture,
                        const PixelRect* only = nullptr);
 
-}  // namespace sateen
+}  // namespace sateen::io

@@ -23,7 +23,7 @@
 static_assert(std::endian::native == std::endian::little,
               "KTX2 files are little-endian; so is every machine so far");
 
-namespace sateen {
+namespace sateen::io {
 namespace {
 
 namespace fs = std::filesystem;
@@ -354,4 +354,4 @@ void write_ktx2(const fs::path& path, const Ktx2& texture, int zstd_level) {
   write_bytes(path, out);
 }
 
-}  // namespace sateen
+}  // namespace sateen::io

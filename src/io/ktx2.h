@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace sateen {
+namespace sateen::io {
 
 /// The texel formats Sateen reads and writes; values are Vulkan's.
 enum class VkFormat : std::uint32_t {
@@ -53,4 +53,4 @@ Ktx2 read_ktx2(const std::filesystem::path& path);
 /// written.
 void write_ktx2(const std::filesystem::path& path, const Ktx2& texture, int zstd_level = 9);
 
-}  // namespace sateen
+}  // namespace sateen::io

@@ -5,7 +5,7 @@
 #include <array>
 #include <bit>
 
-namespace sateen {
+namespace sateen::io {
 namespace {
 
 using Sample = TexelLayout::Sample;
@@ -107,4 +107,4 @@ std::vector<std::uint32_t> data_format_descriptor(const TexelLayout& layout, boo
   return words;
 }
 
-}  // namespace sateen
+}  // namespace sateen::io

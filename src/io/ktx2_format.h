@@ -7,7 +7,7 @@
 
 #include "sateen/io/ktx2.h"
 
-namespace sateen {
+namespace sateen::io {
 
 /// How the texels of one format lie in memory and how Khronos' basic data format descriptor says so.
 struct TexelLayout {
@@ -40,4 +40,4 @@ const TexelLayout* find_texel_layout(VkFormat format);
 /// `sized` is false when the levels are supercompressed: bytesPlane0 is 0 then, as KTX 2.0 (3.10.3) demands.
 std::vector<std::uint32_t> data_format_descriptor(const TexelLayout& layout, bool sized);
 
-}  // namespace sateen
+}  // namespace sateen::io

@@ -15,7 +15,7 @@
 #include "sateen/io/mesh_merge.h"
 #include "sateen/io/ply.h"
 
-namespace sateen {
+namespace sateen::io {
 namespace {
 
 namespace fs = std::filesystem;
@@ -77,4 +77,4 @@ Model read_model(const fs::path& path) {
   return model;
 }
 
-}  // namespace sateen
+}  // namespace sateen::io

@@ -8,7 +8,7 @@
 #include "sateen/core/image.h"
 #include "sateen/core/mesh.h"
 
-namespace sateen {
+namespace sateen::io {
 
 /// What a mesh file says of one of its materials, as far as Sateen carries it over. Pictures are empty where
 /// there are none; their texture coordinates are uv_scale * uv + uv_offset, v up.
@@ -33,4 +33,4 @@ struct Model {
 /// that are not finite.
 Model read_model(const std::filesystem::path& path);
 
-}  // namespace sateen
+}  // namespace sateen::io

@@ -8,7 +8,7 @@
 #include "sateen/core/direction.h"
 #include "sateen/core/first_equal.h"
 
-namespace sateen {
+namespace sateen::io {
 namespace {
 
 constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
@@ -144,4 +144,4 @@ void clean_mesh(Mesh& mesh, bool join) {
   mend_tangents(mesh);
 }
 
-}  // namespace sateen
+}  // namespace sateen::io

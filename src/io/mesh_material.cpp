@@ -12,7 +12,7 @@
 #include "sateen/io/image.h"
 #include "sateen/io/image_memory.h"
 
-namespace sateen {
+namespace sateen::io {
 namespace {
 
 namespace fs = std::filesystem;
@@ -80,4 +80,4 @@ MeshMaterial read_material(const aiScene& scene, const aiMaterial& material, con
   return result;
 }
 
-}  // namespace sateen
+}  // namespace sateen::io

@@ -9,7 +9,7 @@
 struct aiMaterial;
 struct aiScene;
 
-namespace sateen {
+namespace sateen::io {
 
 /// What Sateen carries over of an imported material: its name and, of glTF, normal and occlusion maps, looked
 /// for in the scene and beside `path`. Maps on a second UV set are left out, and a rotated texture transform
@@ -20,4 +20,4 @@ MeshMaterial read_material(const aiScene& scene, const aiMaterial& material,
 /// A relative URI as a file name: %20 is a blank.
 std::string decoded_uri(const std::string& uri);
 
-}  // namespace sateen
+}  // namespace sateen::io

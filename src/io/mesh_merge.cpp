@@ -11,7 +11,7 @@
 #include "sateen/core/error.h"
 #include "sateen/io/triangulate.h"
 
-namespace sateen {
+namespace sateen::io {
 namespace {
 
 Vec3f vector(const aiVector3D& v) {
@@ -172,4 +172,4 @@ MergedMesh merge_scene(const aiScene& scene) {
   return result;
 }
 
-}  // namespace sateen
+}  // namespace sateen::io

@@ -8,7 +8,7 @@
 
 struct aiScene;
 
-namespace sateen {
+namespace sateen::io {
 
 struct MergedMesh {
   Mesh mesh;                            ///< material_names still empty
@@ -23,4 +23,4 @@ void check_scene(const aiScene& scene, const std::filesystem::path& path);
 /// 0).
 MergedMesh merge_scene(const aiScene& scene);
 
-}  // namespace sateen
+}  // namespace sateen::io

@@ -5,7 +5,7 @@
 #include "sateen/io/image.h"
 #include "sateen/io/jpeg.h"
 
-namespace sateen {
+namespace sateen::io {
 
 Picture8 read_picture8(const std::filesystem::path& path) {
   Picture8 picture;
@@ -37,4 +37,4 @@ void read_picture8(const std::filesystem::path& path, const PixelRect& region, P
   read_picture8(path, &region, picture);
 }
 
-}  // namespace sateen
+}  // namespace sateen::io

@@ -7,7 +7,7 @@
 
 #include "sateen/core/image.h"
 
-namespace sateen {
+namespace sateen::io {
 
 /// A decoded 8-bit picture as its file or the camera encodes it (usually sRGB), for work that cannot wait for
 /// floats. Interleaved RGB, row 0 on top: channel c of pixel (x, y) is rgb[(y * width + x) * 3 + c].
@@ -29,4 +29,4 @@ void read_picture8(const std::filesystem::path& path, Picture8& picture);
 /// and damage below it may go unnoticed. Of a plain JPEG little else is decoded.
 void read_picture8(const std::filesystem::path& path, const PixelRect& region, Picture8& picture);
 
-}  // namespace sateen
+}  // namespace sateen::io

@@ -17,7 +17,7 @@
 #include "sateen/io/ply_header.h"
 #include "sateen/io/triangulate.h"
 
-namespace sateen {
+namespace sateen::io {
 namespace {
 
 [[noreturn]] void truncated() {
@@ -222,4 +222,4 @@ Mesh read_ply(const std::filesystem::path& path) {
   }
 }
 
-}  // namespace sateen
+}  // namespace sateen::io

@@ -5,7 +5,7 @@
 
 #include "sateen/core/mesh.h"
 
-namespace sateen {
+namespace sateen::io {
 
 /// Reads a PLY file, text or binary of either byte order: positions, normals (nx, ny, nz), UVs (s, t; u, v;
 /// texture_u, texture_v) of its vertices, polygons and strips. The triangles are as the file has them,
@@ -14,4 +14,4 @@ namespace sateen {
 /// says, or an index points outside the vertices.
 Mesh read_ply(const std::filesystem::path& path);
 
-}  // namespace sateen
+}  // namespace sateen::io

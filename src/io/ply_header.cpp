@@ -8,7 +8,7 @@
 
 #include "sateen/core/error.h"
 
-namespace sateen {
+namespace sateen::io {
 namespace {
 
 PlyType type_named(const std::string& name) {
@@ -99,4 +99,4 @@ PlyHeader read_ply_header(std::string_view bytes) {
   throw Error("is truncated: its PLY header has no end");
 }
 
-}  // namespace sateen
+}  // namespace sateen::io

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-namespace sateen {
+namespace sateen::io {
 
 enum class PlyType { int8, uint8, int16, uint16, int32, uint32, float32, float64 };
 
@@ -37,4 +37,4 @@ struct PlyHeader {
 /// when what follows is shorter than the elements need at least.
 PlyHeader read_ply_header(std::string_view bytes);
 
-}  // namespace sateen
+}  // namespace sateen::io

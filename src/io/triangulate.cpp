@@ -3,7 +3,7 @@
 
 #include <numeric>
 
-namespace sateen {
+namespace sateen::io {
 namespace {
 
 // Twice the signed area.
@@ -72,4 +72,4 @@ std::vector<std::array<std::uint32_t, 3>> triangulate(std::span<const Vec3f> cor
   return triangles;
 }
 
-}  // namespace sateen
+}  // namespace sateen::io

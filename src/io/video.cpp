@@ -13,7 +13,7 @@
 #include "sateen/core/error.h"
 #include "sateen/io/file.h"
 
-namespace sateen {
+namespace sateen::io {
 namespace {
 
 namespace fs = std::filesystem;
@@ -78,4 +78,4 @@ void write_video(const fs::path& path, int count, double frames_per_second,
   });
 }
 
-}  // namespace sateen
+}  // namespace sateen::io

@@ -6,7 +6,7 @@
 
 #include "sateen/core/image.h"
 
-namespace sateen {
+namespace sateen::io {
 
 /// Whether the extension is one that write_video takes: .mp4, .mov or .avi.
 bool is_video_path(const std::filesystem::path& path);
@@ -18,4 +18,4 @@ bool is_video_path(const std::filesystem::path& path);
 void write_video(const std::filesystem::path& path, int count, double frames_per_second,
                  const std::function<Image(int)>& picture);
 
-}  // namespace sateen
+}  // namespace sateen::io

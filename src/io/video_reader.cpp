@@ -13,7 +13,7 @@
 
 #include "sateen/core/error.h"
 
-namespace sateen {
+namespace sateen::io {
 namespace {
 
 /// The decoders' own chatter would end up among a program's messages; what matters is told by Error.
@@ -101,4 +101,4 @@ bool VideoReader::skip() {
   }
 }
 
-}  // namespace sateen
+}  // namespace sateen::io

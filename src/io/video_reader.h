@@ -8,7 +8,7 @@
 
 #include "sateen/io/picture8.h"
 
-namespace sateen {
+namespace sateen::io {
 
 /// Extensions of the video files that can be read, lower case with the dot.
 std::span<const std::string> video_extensions();
@@ -38,4 +38,4 @@ class VideoReader {
   std::unique_ptr<State> state_;
 };
 
-}  // namespace sateen
+}  // namespace sateen::io

@@ -11,7 +11,7 @@
 #include "sateen/core/error.h"
 #include "sateen/io/image.h"
 
-namespace sateen {
+namespace sateen::light {
 
 Vec3 environment_direction(const Vec2& uv) {
   const double azimuth = 2 * kPi * (uv.x() - 0.5);
@@ -42,7 +42,7 @@ Vec3 environment_radiance(const Image& environment, const Vec3& direction) {
 }
 
 Image read_environment(const std::filesystem::path& path) {
-  Image image = with_channels(read_image(path), 3);
+  Image image = with_channels(io::read_image(path), 3);
   if (std::abs(image.width - 2 * image.height) > 1) {
     throw Error(fmt::format(
         "{}: an environment map is a latitude-longitude picture, twice as wide as high; this one is "
@@ -71,4 +71,4 @@ Image turned_environment(const Image& environment, double angle) {
   return turned;
 }
 
-}  // namespace sateen
+}  // namespace sateen::light

@@ -5,7 +5,7 @@
 
 #include "sateen/core/image.h"
 
-namespace sateen {
+namespace sateen::light {
 
 // Environment maps are latitude-longitude pictures of radiance, linear, row 0 at the zenith (+y). The middle
 // column is what a viewer looking along -z sees, and u grows to the right, towards +x: direction (sin a cos
@@ -28,4 +28,4 @@ Image read_environment(const std::filesystem::path& path);
 /// behind the object moves to the viewer's left.
 Image turned_environment(const Image& environment, double angle);
 
-}  // namespace sateen
+}  // namespace sateen::light

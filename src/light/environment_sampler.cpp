@@ -7,7 +7,7 @@
 #include "sateen/core/colour.h"
 #include "sateen/light/environment.h"
 
-namespace sateen {
+namespace sateen::light {
 
 namespace {
 
@@ -77,4 +77,4 @@ double EnvironmentSampler::pdf(const Vec3& direction) const {
   return pixel_pdf(x, y);
 }
 
-}  // namespace sateen
+}  // namespace sateen::light

@@ -5,7 +5,7 @@
 
 #include "sateen/core/image.h"
 
-namespace sateen {
+namespace sateen::light {
 
 /// Draws directions of an environment map in proportion to the luminance its pixels send (times their solid
 /// angle), evenly within a pixel: the usual two-dimensional inversion, rows first.
@@ -33,4 +33,4 @@ class EnvironmentSampler {
   std::vector<double> columns_;  ///< cumulative within each row, width + 1 entries a row
 };
 
-}  // namespace sateen
+}  // namespace sateen::light

@@ -9,7 +9,7 @@
 #include "sateen/core/parallel.h"
 #include "sateen/light/environment.h"
 
-namespace sateen {
+namespace sateen::light {
 
 namespace {
 
@@ -132,4 +132,4 @@ std::shared_ptr<const TextureData> PrefilteredEnvironment::texture() const {
   return texture;
 }
 
-}  // namespace sateen
+}  // namespace sateen::light

@@ -4,10 +4,10 @@
 #include <memory>
 #include <vector>
 
-#include "sateen/core/appearance.h"
 #include "sateen/core/image.h"
+#include "sateen/core/texture_data.h"
 
-namespace sateen {
+namespace sateen::light {
 
 /// An environment map blurred with isotropic GGX lobes of growing roughness (normal and view along the lookup
 /// direction, as Karis 2013), in the mip levels of one latitude-longitude texture: what the GPU reads instead
@@ -31,4 +31,4 @@ class PrefilteredEnvironment {
   std::vector<Image> levels_;
 };
 
-}  // namespace sateen
+}  // namespace sateen::light

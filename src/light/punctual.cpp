@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace sateen {
+namespace sateen::light {
 
 ArrivingLight arriving_light(const PunctualLight& light, const Vec3& position) {
   if (light.kind == PunctualLight::Kind::directional) return {light.direction, light.colour};
@@ -21,4 +21,4 @@ ArrivingLight arriving_light(const PunctualLight& light, const Vec3& position) {
   return {direction, light.colour * factor};
 }
 
-}  // namespace sateen
+}  // namespace sateen::light

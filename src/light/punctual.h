@@ -3,7 +3,7 @@
 
 #include "sateen/core/vector.h"
 
-namespace sateen {
+namespace sateen::light {
 
 /// A light without extent, in view space.
 struct PunctualLight {
@@ -31,4 +31,4 @@ struct ArrivingLight {
 /// The light that arrives at a point in view space.
 ArrivingLight arriving_light(const PunctualLight& light, const Vec3& position);
 
-}  // namespace sateen
+}  // namespace sateen::light

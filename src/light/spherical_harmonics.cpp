@@ -5,7 +5,7 @@
 
 #include "sateen/light/environment.h"
 
-namespace sateen {
+namespace sateen::light {
 
 namespace {
 
@@ -74,4 +74,4 @@ SphericalHarmonics9 rotated(const SphericalHarmonics9& harmonics, const Mat3& ro
   return turned;
 }
 
-}  // namespace sateen
+}  // namespace sateen::light

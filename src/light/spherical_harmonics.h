@@ -5,7 +5,7 @@
 
 #include "sateen/core/image.h"
 
-namespace sateen {
+namespace sateen::light {
 
 /// Light from all directions as real spherical harmonics up to band 2 (Ramamoorthi and Hanrahan 2001),
 /// written as the polynomial they are, basis constants multiplied in:
@@ -39,4 +39,4 @@ SphericalHarmonics9 project_environment(const Image& environment);
 /// The same light in a turned frame: harmonics h with h.radiance(rotation * d) = original.radiance(d).
 SphericalHarmonics9 rotated(const SphericalHarmonics9& harmonics, const Mat3& rotation);
 
-}  // namespace sateen
+}  // namespace sateen::light

@@ -8,7 +8,7 @@
 #include "sateen/core/direction.h"
 #include "sateen/core/parallel.h"
 
-namespace sateen {
+namespace sateen::matcap {
 namespace {
 
 Vec3 to_linear(Vec3 v, AddUpSpace space) {
@@ -87,4 +87,4 @@ double psnr_on_disc(const Image& a, const Image& b, const Disc& disc) {
   return sum > 0 ? -10 * std::log10(sum / count) : 200;
 }
 
-}  // namespace sateen
+}  // namespace sateen::matcap

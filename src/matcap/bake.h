@@ -6,7 +6,7 @@
 #include "sateen/core/image.h"
 #include "sateen/matcap/edited_matcap.h"
 
-namespace sateen {
+namespace sateen::matcap {
 
 /// An ordinary MatCap of the input's size, linear light, 3 channels; off the sphere the rim's colour goes on
 /// outwards, so that filtering never sees a background.
@@ -29,4 +29,4 @@ Vec3 direction_of_environment(int x, int y, int height);
 /// Peak signal-to-noise ratio in dB between two pictures over the sphere, of display values: 1 is the peak.
 double psnr_on_disc(const Image& a, const Image& b, const Disc& disc);
 
-}  // namespace sateen
+}  // namespace sateen::matcap

@@ -11,7 +11,7 @@
 #include "sateen/matcap/decomposition_file.h"
 #include "sateen/matcap/matcap_picture.h"
 
-namespace sateen {
+namespace sateen::matcap {
 namespace {
 
 namespace fs = std::filesystem;
@@ -92,4 +92,4 @@ std::vector<BatchEntry> decompose_files(std::span<const fs::path> inputs, const 
   return entries;
 }
 
-}  // namespace sateen
+}  // namespace sateen::matcap

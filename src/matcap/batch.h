@@ -10,7 +10,7 @@
 #include "sateen/core/progress.h"
 #include "sateen/matcap/decomposition.h"
 
-namespace sateen {
+namespace sateen::matcap {
 
 /// How files of MatCaps are decomposed.
 struct DecomposeFileOptions {
@@ -40,4 +40,4 @@ std::vector<BatchEntry> decompose_files(std::span<const std::filesystem::path> i
                                         const DecomposeFileOptions& options, bool anew,
                                         const Progress& progress = {});
 
-}  // namespace sateen
+}  // namespace sateen::matcap

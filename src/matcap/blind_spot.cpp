@@ -6,7 +6,7 @@
 #include <cmath>
 #include <vector>
 
-namespace sateen {
+namespace sateen::matcap {
 namespace {
 
 constexpr int kSpokes = 192;
@@ -115,4 +115,4 @@ Vec3 BlindSpot::operator()(const Vec3& direction) const {
   return (1 - fi) * on_ring(i) + fi * on_ring(i + 1);
 }
 
-}  // namespace sateen
+}  // namespace sateen::matcap

@@ -5,7 +5,7 @@
 
 #include "sateen/core/vector.h"
 
-namespace sateen {
+namespace sateen::matcap {
 
 /// The colours of the blind spot of a sphere map: a cap around -z no visible point looks at (Zubiaga et al.
 /// 2015, section 4.2). They solve Poisson's equation in the plane of the back map, where the cap is a disc,
@@ -28,4 +28,4 @@ class BlindSpot {
       colours_;  // 3 x (1 + rings * spokes): the centre, then ring by ring outwards, the boundary last
 };
 
-}  // namespace sateen
+}  // namespace sateen::matcap

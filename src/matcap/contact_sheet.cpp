@@ -16,7 +16,7 @@
 #include "sateen/matcap/bake.h"
 #include "sateen/matcap/decomposition_file.h"
 
-namespace sateen {
+namespace sateen::matcap {
 namespace {
 
 namespace fs = std::filesystem;
@@ -121,7 +121,7 @@ std::string row_of(const fs::path& folder, const BatchEntry& entry) {
   const fs::path strip = folder / "sheet" / (name + ".png");
   std::error_code code;
   if (!fs::exists(strip, code) || fs::last_write_time(strip) < fs::last_write_time(entry.output)) {
-    write_image(strip, strip_of(matcap));
+    io::write_image(strip, strip_of(matcap));
   }
   return fmt::format(
       "<section><h2>{}</h2><img loading=\"lazy\" src=\"sheet/{}\" width=\"{}\" height=\"{}\" alt=\"{}\">"
@@ -158,7 +158,7 @@ void write_contact_sheet(const fs::path& folder, std::span<const BatchEntry> ent
   for (const char* tile : kTiles) html += fmt::format("<span>{}</span>", tile);
   html += "</header>\n";
   for (const std::string& row : rows) html += row;
-  write_text(folder / "index.html", html + "</body></html>\n");
+  io::write_text(folder / "index.html", html + "</body></html>\n");
 }
 
-}  // namespace sateen
+}  // namespace sateen::matcap

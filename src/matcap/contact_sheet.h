@@ -7,7 +7,7 @@
 #include "sateen/core/progress.h"
 #include "sateen/matcap/batch.h"
 
-namespace sateen {
+namespace sateen::matcap {
 
 /// Writes `folder`/index.html, a page that shows every decomposed MatCap (as it is, low, high, the four
 /// sphere maps, three turned lights) with its parameters, and lists what failed; the pictures lie in
@@ -16,4 +16,4 @@ namespace sateen {
 void write_contact_sheet(const std::filesystem::path& folder, std::span<const BatchEntry> entries,
                          const Progress& progress = {});
 
-}  // namespace sateen
+}  // namespace sateen::matcap

@@ -17,7 +17,7 @@
 #include "sateen/matcap/half_texels.h"
 #include "sateen/matcap/sphere_map.h"
 
-namespace sateen {
+namespace sateen::matcap {
 namespace {
 
 namespace fs = std::filesystem;
@@ -50,7 +50,7 @@ Vec4f silhouette_uniform(const PartLook& look) {
   return Vec4(s.theta0, s.m1, s.alpha1 - look.base_color.mean(), 1).cast<float>();
 }
 
-TextureBinding modulation_texture(const char* sampler, const Image& image, float standard) {
+appearance::TextureBinding modulation_texture(const char* sampler, const Image& image, float standard) {
   const Image& shown = image.empty() ? Image(1, 1, 3, standard) : image;
   return {sampler, std::make_shared<const TextureData>(picture_texture(shown, TextureData::Wrap::repeat))};
 }
@@ -96,12 +96,12 @@ DecomposedAppearance::DecomposedAppearance(EditedMatcap matcap, ModulationMaps m
   }
 }
 
-std::unique_ptr<Appearance> DecomposedAppearance::read(const fs::path& path) {
+std::unique_ptr<appearance::Appearance> DecomposedAppearance::read(const fs::path& path) {
   return std::make_unique<DecomposedAppearance>(unedited(read_matcap(path)));
 }
 
-std::unique_ptr<Appearance> DecomposedAppearance::read_material(const fs::path& path) {
-  const json material = json::parse(read_text(path), nullptr, false);
+std::unique_ptr<appearance::Appearance> DecomposedAppearance::read_material(const fs::path& path) {
+  const json material = json::parse(io::read_text(path), nullptr, false);
   if (!material.is_object() || !material.contains("matcap") || !material["matcap"].is_string()) {
     throw Error(
         fmt::format("{}: \"matcap\" is needed, the name of a decomposed MatCap (.ktx2)", path.string()));
@@ -124,11 +124,11 @@ std::unique_ptr<Appearance> DecomposedAppearance::read_material(const fs::path& 
   };
   ModulationMaps maps;
   if (const fs::path file = picture("low_color"); !file.empty())
-    maps.low_color = to_add_up_space(read_image(file), space);
+    maps.low_color = to_add_up_space(io::read_image(file), space);
   if (const fs::path file = picture("high_color"); !file.empty())
-    maps.high_color = to_add_up_space(read_image(file), space);
-  if (const fs::path file = picture("roughness"); !file.empty()) maps.roughness = read_data(file);
-  if (const fs::path file = picture("occlusion"); !file.empty()) maps.occlusion = read_data(file);
+    maps.high_color = to_add_up_space(io::read_image(file), space);
+  if (const fs::path file = picture("roughness"); !file.empty()) maps.roughness = io::read_data(file);
+  if (const fs::path file = picture("occlusion"); !file.empty()) maps.occlusion = io::read_data(file);
   if (material.contains("roughness_scale")) {
     const json& scale = material["roughness_scale"];
     if (!scale.is_number() || !(scale.get<double>() >= 0 && scale.get<double>() <= kFlattest)) {
@@ -140,7 +140,7 @@ std::unique_ptr<Appearance> DecomposedAppearance::read_material(const fs::path& 
   return std::make_unique<DecomposedAppearance>(apply_edits(std::move(matcap), edits), std::move(maps));
 }
 
-Vec3 DecomposedAppearance::evaluate(const Surface& surface) const {
+Vec3 DecomposedAppearance::evaluate(const appearance::Surface& surface) const {
   Modulation modulation;
   modulation.occlusion = surface.occlusion;
   if (!maps_.low_color.empty()) modulation.low_color = colour_at(maps_.low_color, surface.uv);
@@ -149,10 +149,10 @@ Vec3 DecomposedAppearance::evaluate(const Surface& surface) const {
     modulation.added_variance = maps_.roughness_scale * first_channel(maps_.roughness, surface.uv);
   }
   if (!maps_.occlusion.empty()) modulation.occlusion *= first_channel(maps_.occlusion, surface.uv);
-  return sateen::evaluate(matcap_, facing(surface.eye_normal), modulation);
+  return matcap::evaluate(matcap_, facing(surface.eye_normal), modulation);
 }
 
-ShaderBinding DecomposedAppearance::shader() const {
+appearance::ShaderBinding DecomposedAppearance::shader() const {
   if (!maps_.any()) {
     return {.files = {"matcap_by_normal.glsl"},
             .function = "matcap_by_normal",
@@ -186,4 +186,4 @@ ShaderBinding DecomposedAppearance::shader() const {
                        modulation_texture("decomposed_occlusion_texture", maps_.occlusion, 1)}};
 }
 
-}  // namespace sateen
+}  // namespace sateen::matcap

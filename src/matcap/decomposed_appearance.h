@@ -4,11 +4,11 @@
 #include <filesystem>
 #include <memory>
 
-#include "sateen/core/appearance.h"
+#include "sateen/appearance/appearance.h"
 #include "sateen/core/image.h"
 #include "sateen/matcap/edited_matcap.h"
 
-namespace sateen {
+namespace sateen::matcap {
 
 /// Textures over the surface (Figures 15 and 16), each repeated over uv; empty: everywhere 1, or 0 for
 /// roughness.
@@ -24,20 +24,20 @@ struct ModulationMaps {
 };
 
 /// Shows an edited MatCap: evaluate() of edited_matcap.h at the eye-frame normal, times occlusion.
-class DecomposedAppearance final : public Appearance {
+class DecomposedAppearance final : public appearance::Appearance {
  public:
   explicit DecomposedAppearance(EditedMatcap matcap, ModulationMaps maps = {});
 
   /// A .ktx2 decomposition as it is.
-  static std::unique_ptr<Appearance> read(const std::filesystem::path& path);
+  static std::unique_ptr<appearance::Appearance> read(const std::filesystem::path& path);
 
   /// A .json material: {"model": "matcap-decomposition", "matcap": "gold.ktx2", "edits": [...]}, optionally
   /// with the pictures "low_color", "high_color", "roughness" (and "roughness_scale") and "occlusion". File
   /// names are beside the material's. Throws Error naming the material for what is missing or unknown.
-  static std::unique_ptr<Appearance> read_material(const std::filesystem::path& path);
+  static std::unique_ptr<appearance::Appearance> read_material(const std::filesystem::path& path);
 
-  Vec3 evaluate(const Surface& surface) const override;
-  ShaderBinding shader() const override;
+  Vec3 evaluate(const appearance::Surface& surface) const override;
+  appearance::ShaderBinding shader() const override;
   Needs needs() const override { return {.uvs = maps_.any()}; }
 
  private:
@@ -45,4 +45,4 @@ class DecomposedAppearance final : public Appearance {
   ModulationMaps maps_;
 };
 
-}  // namespace sateen
+}  // namespace sateen::matcap

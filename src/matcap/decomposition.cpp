@@ -12,7 +12,7 @@
 #include "sateen/matcap/unwarp.h"
 #include "sateen/matcap/warp.h"
 
-namespace sateen {
+namespace sateen::matcap {
 namespace {
 
 Image divided_by(Image image, const Vec3& color) {
@@ -120,4 +120,4 @@ MatcapDecomposition decompose(const Image& picture, const Disc& disc, const Deco
                    options, name);
 }
 
-}  // namespace sateen
+}  // namespace sateen::matcap

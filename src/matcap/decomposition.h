@@ -13,7 +13,7 @@
 #include "sateen/matcap/sphere_disc.h"
 #include "sateen/matcap/sphere_map.h"
 
-namespace sateen {
+namespace sateen::matcap {
 
 /// The two components of a MatCap: low-frequency, akin to diffuse, and high-frequency, akin to specular
 /// light.
@@ -80,4 +80,4 @@ MatcapDecomposition decompose(const Image& picture, const Disc& disc, const Deco
 MatcapDecomposition decompose(const Separation& parts, const Disc& disc, const DecomposeOptions& options,
                               const std::string& name);
 
-}  // namespace sateen
+}  // namespace sateen::matcap

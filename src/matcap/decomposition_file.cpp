@@ -11,7 +11,7 @@
 #include "sateen/io/ktx2.h"
 #include "sateen/matcap/half_texels.h"
 
-namespace sateen {
+namespace sateen::matcap {
 namespace {
 
 namespace fs = std::filesystem;
@@ -101,8 +101,8 @@ std::string matcap_json(const MatcapDecomposition& matcap) {
 }
 
 void write_matcap(const fs::path& path, const MatcapDecomposition& matcap) {
-  Ktx2 texture;
-  texture.format = VkFormat::rgba16_sfloat;
+  io::Ktx2 texture;
+  texture.format = io::VkFormat::rgba16_sfloat;
   texture.width = texture.height = static_cast<std::uint32_t>(matcap[Part::low].map.levels.front().size());
   texture.layers = kLayers;
   texture.levels = half_levels(matcap);
@@ -111,11 +111,11 @@ void write_matcap(const fs::path& path, const MatcapDecomposition& matcap) {
                       {"sateen.version", std::to_string(kMatcapFileVersion)},
                       {"sateen.matcap", matcap_json(matcap)}};
   if (!matcap.kept.empty()) texture.metadata["sateen.kept"] = text_of_pixels(matcap.kept);
-  write_ktx2(path, texture, kZstdLevel);
+  io::write_ktx2(path, texture, kZstdLevel);
 }
 
 MatcapDecomposition read_matcap(const fs::path& path) {
-  const Ktx2 texture = read_ktx2(path);
+  const io::Ktx2 texture = io::read_ktx2(path);
   const auto entry = [&](const char* key) {
     const auto found = texture.metadata.find(key);
     return found == texture.metadata.end() ? std::string() : found->second;
@@ -128,7 +128,7 @@ MatcapDecomposition read_matcap(const fs::path& path) {
                            entry("sateen.version"), kMatcapFileVersion));
   }
   if (texture.layers != kLayers || texture.depth != 0 || texture.faces != 1 ||
-      texture.width != texture.height || texture.width < 2 || texture.format != VkFormat::rgba16_sfloat) {
+      texture.width != texture.height || texture.width < 2 || texture.format != io::VkFormat::rgba16_sfloat) {
     fail(path, "a decomposed MatCap has four square layers of half floats; this texture has not");
   }
   MatcapDecomposition matcap;
@@ -156,4 +156,4 @@ MatcapDecomposition read_matcap(const fs::path& path) {
   return matcap;
 }
 
-}  // namespace sateen
+}  // namespace sateen::matcap

@@ -6,7 +6,7 @@
 
 #include "sateen/matcap/decomposition.h"
 
-namespace sateen {
+namespace sateen::matcap {
 
 inline constexpr int kMatcapFileVersion = 1;
 
@@ -27,4 +27,4 @@ std::string matcap_json(const MatcapDecomposition& matcap);
 /// "sateen.kind" of such files.
 inline constexpr const char* kMatcapKind = "matcap-decomposition";
 
-}  // namespace sateen
+}  // namespace sateen::matcap

@@ -7,7 +7,7 @@
 #include "sateen/core/colour.h"
 #include "sateen/matcap/warp.h"
 
-namespace sateen {
+namespace sateen::matcap {
 
 EditedMatcap unedited(MatcapDecomposition matcap) {
   EditedMatcap result;
@@ -42,4 +42,4 @@ Vec3 evaluate(const EditedMatcap& matcap, const Vec3& n, const Modulation& modul
   return modulation.occlusion * sum;
 }
 
-}  // namespace sateen
+}  // namespace sateen::matcap

@@ -8,7 +8,7 @@
 #include "sateen/core/vector.h"
 #include "sateen/matcap/decomposition.h"
 
-namespace sateen {
+namespace sateen::matcap {
 
 /// More or less light towards the rim (Zubiaga et al. 2015, Figure 2 and section 5.2): beyond theta0 the
 /// filter's energy is multiplied by 1 + ((3 t^2 - 2 t^3) + (t^3 - t^2) m1) (alpha1 - mean of the base
@@ -61,4 +61,4 @@ Vec3 evaluate_part(const EditedMatcap& matcap, Part part, const Vec3& n, const M
 /// Both components, added up, as linear light.
 Vec3 evaluate(const EditedMatcap& matcap, const Vec3& n, const Modulation& modulation = {});
 
-}  // namespace sateen
+}  // namespace sateen::matcap

@@ -15,7 +15,7 @@
 #include "sateen/matcap/sphere_blur.h"
 #include "sateen/matcap/warp.h"
 
-namespace sateen {
+namespace sateen::matcap {
 namespace {
 
 constexpr double kHighlightBlur = 0.01;  // radians^2: what the main highlight must stand out in
@@ -127,7 +127,7 @@ class Replay {
         paint(map, painted.place, *footprint, painted.color, variance);
       } else {
         const auto& bitmap = std::get<Bitmap>(painted.light);
-        const Image picture = to_add_up_space(read_image(bitmap.file), state_.matcap.space);
+        const Image picture = to_add_up_space(io::read_image(bitmap.file), state_.matcap.space);
         paint(map, painted.place, BitmapLight(picture, bitmap.width, variance), painted.color);
       }
     }
@@ -168,4 +168,4 @@ EditedMatcap apply_edits(MatcapDecomposition matcap, const std::vector<Edit>& ed
   return replay.finish();
 }
 
-}  // namespace sateen
+}  // namespace sateen::matcap

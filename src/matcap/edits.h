@@ -10,7 +10,7 @@
 #include "sateen/matcap/edited_matcap.h"
 #include "sateen/matcap/painted_light.h"
 
-namespace sateen {
+namespace sateen::matcap {
 
 // The edits of section 5, in the order they were made. docs/matcap-decomposition.md describes the JSON.
 
@@ -94,4 +94,4 @@ EditedMatcap apply_edits(MatcapDecomposition matcap, const std::vector<Edit>& ed
 /// The direction of the brightest, slightly blurred light of the high part, before any turn.
 Vec3 main_highlight(const MatcapDecomposition& matcap);
 
-}  // namespace sateen
+}  // namespace sateen::matcap

@@ -10,7 +10,7 @@
 #include "sateen/io/file.h"
 #include "sateen/matcap/edits.h"
 
-namespace sateen {
+namespace sateen::matcap {
 namespace {
 
 namespace fs = std::filesystem;
@@ -192,7 +192,7 @@ std::vector<Edit> parse_edits(const std::string& text, const fs::path& folder, c
 }
 
 std::vector<Edit> read_edits(const fs::path& path) {
-  return parse_edits(read_text(path), path.parent_path(), path.string());
+  return parse_edits(io::read_text(path), path.parent_path(), path.string());
 }
 
-}  // namespace sateen
+}  // namespace sateen::matcap

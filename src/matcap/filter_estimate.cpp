@@ -11,7 +11,7 @@
 #include "sateen/core/error.h"
 #include "sateen/core/parallel.h"
 
-namespace sateen {
+namespace sateen::matcap {
 namespace {
 
 constexpr double kSmallestWindow = 6;  // pixels at the middle of the sphere
@@ -334,4 +334,4 @@ Vec3 base_color_of(const Image& component, const Disc& disc) {
   return best.cwiseMax(1e-3 * best.maxCoeff());
 }
 
-}  // namespace sateen
+}  // namespace sateen::matcap

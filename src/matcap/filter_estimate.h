@@ -8,7 +8,7 @@
 #include "sateen/matcap/signature.h"
 #include "sateen/matcap/sphere_disc.h"
 
-namespace sateen {
+namespace sateen::matcap {
 
 /// A rectangle of pixels around a sharp feature of a MatCap.
 struct Region {
@@ -61,4 +61,4 @@ FilterEstimate estimate_filter(const Image& component, const Disc& disc, double 
 /// largest, so that dividing by it is safe. White for a black component.
 Vec3 base_color_of(const Image& component, const Disc& disc);
 
-}  // namespace sateen
+}  // namespace sateen::matcap

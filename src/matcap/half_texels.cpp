@@ -8,7 +8,7 @@
 
 #include "sateen/core/parallel.h"
 
-namespace sateen {
+namespace sateen::matcap {
 namespace {
 
 constexpr std::size_t kTexelBytes = 4 * sizeof(Half);
@@ -68,4 +68,4 @@ void set_half_levels(MatcapDecomposition& matcap, int size, std::span<const std:
   }
 }
 
-}  // namespace sateen
+}  // namespace sateen::matcap

@@ -13,7 +13,7 @@
 #include "sateen/core/error.h"
 #include "sateen/matcap/rim.h"
 
-namespace sateen {
+namespace sateen::matcap {
 namespace {
 
 constexpr float kClose = 0.5F / 255;  // display values
@@ -120,4 +120,4 @@ std::vector<KeptPixel> pixels_of_text(std::string_view text, std::size_t count) 
   return pixels;
 }
 
-}  // namespace sateen
+}  // namespace sateen::matcap

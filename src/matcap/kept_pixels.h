@@ -9,7 +9,7 @@
 #include "sateen/core/image.h"
 #include "sateen/matcap/sphere_disc.h"
 
-namespace sateen {
+namespace sateen::matcap {
 
 /// A pixel of the input that its sphere maps cannot give back: at a drawn sphere's edge, which they leave
 /// out, and near the rim of a glossy one, where a ring of pixels shares the few texels around the view axis'
@@ -37,4 +37,4 @@ std::string text_of_pixels(const std::vector<KeptPixel>& pixels);
 /// finite.
 std::vector<KeptPixel> pixels_of_text(std::string_view text, std::size_t count);
 
-}  // namespace sateen
+}  // namespace sateen::matcap

@@ -9,7 +9,7 @@
 #include "sateen/core/picture_texture.h"
 #include "sateen/io/image.h"
 
-namespace sateen {
+namespace sateen::matcap {
 namespace {
 
 Image without_alpha(const Image& picture) {
@@ -35,7 +35,7 @@ MatCap::MatCap(Image picture) : picture_(without_alpha(picture)) {
 }
 
 std::unique_ptr<MatCap> MatCap::read(const std::filesystem::path& path) {
-  Image picture = read_image(path);
+  Image picture = io::read_image(path);
   if (picture.width != picture.height) {
     throw Error(fmt::format("{}: a MatCap is a square picture of a sphere, this one is {} x {}",
                             path.string(), picture.width, picture.height));
@@ -50,15 +50,15 @@ Vec3 MatCap::lookup(const Vec2& disc) const {
   return colour;
 }
 
-Vec3 MatCap::evaluate(const Surface& surface) const {
+Vec3 MatCap::evaluate(const appearance::Surface& surface) const {
   return surface.occlusion * lookup(surface.eye_normal.head<2>());
 }
 
-ShaderBinding MatCap::shader() const {
+appearance::ShaderBinding MatCap::shader() const {
   return {.files = {"matcap.glsl"},
           .function = "matcap",
           .uniforms = {},
           .textures = {{"matcap_table", std::make_shared<const TextureData>(picture_texture(picture_))}}};
 }
 
-}  // namespace sateen
+}  // namespace sateen::matcap

@@ -4,15 +4,15 @@
 #include <filesystem>
 #include <memory>
 
-#include "sateen/core/appearance.h"
+#include "sateen/appearance/appearance.h"
 #include "sateen/core/image.h"
 
-namespace sateen {
+namespace sateen::matcap {
 
 /// A plain MatCap (Sloan et al. 2001; Magri et al. 2016, section 3): one picture of a lit sphere, looked up
 /// by the x and y of the eye-frame normal. Pixel-centred: texel x covers n_x = 2 (x + 0.5) / size - 1. For
 /// isotropic materials.
-class MatCap : public Appearance {
+class MatCap : public appearance::Appearance {
  public:
   /// A square picture of the sphere, linear light, touching all four edges. Texels outside the disc are
   /// replaced from the rim, alpha is divided out. Throws Error when it is not square.
@@ -26,11 +26,11 @@ class MatCap : public Appearance {
   /// Bilinear, linear RGB. `disc` is the (x, y) of a normal; beyond the square the edge is repeated.
   Vec3 lookup(const Vec2& disc) const;
 
-  Vec3 evaluate(const Surface& surface) const override;
-  ShaderBinding shader() const override;
+  Vec3 evaluate(const appearance::Surface& surface) const override;
+  appearance::ShaderBinding shader() const override;
 
  private:
   Image picture_;  ///< three channels
 };
 
-}  // namespace sateen
+}  // namespace sateen::matcap

@@ -3,10 +3,10 @@
 
 #include "sateen/io/image.h"
 
-namespace sateen {
+namespace sateen::matcap {
 
 MatcapPicture read_matcap_picture(const std::filesystem::path& path, const std::optional<Disc>& disc) {
-  const Image picture = read_image(path);
+  const Image picture = io::read_image(path);
   MatcapPicture result;
   if (disc) {
     check_disc(*disc, picture.width, picture.height, path.string());
@@ -26,4 +26,4 @@ MatcapPicture read_matcap_picture(const std::filesystem::path& path, const std::
   return result;
 }
 
-}  // namespace sateen
+}  // namespace sateen::matcap

@@ -7,7 +7,7 @@
 #include "sateen/core/image.h"
 #include "sateen/matcap/sphere_disc.h"
 
-namespace sateen {
+namespace sateen::matcap {
 
 /// A MatCap as a file holds it, and where its sphere is.
 struct MatcapPicture {
@@ -19,4 +19,4 @@ struct MatcapPicture {
 /// it cannot be read, is animated, CMYK or not finite, or when it shows no sphere or `disc` does not fit.
 MatcapPicture read_matcap_picture(const std::filesystem::path& path, const std::optional<Disc>& disc = {});
 
-}  // namespace sateen
+}  // namespace sateen::matcap

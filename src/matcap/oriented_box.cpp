@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-namespace sateen {
+namespace sateen::matcap {
 
 double OrientedBox::reach() const {
   return std::sqrt(half[0].squaredNorm() + half[1].squaredNorm() + half[2].squaredNorm());
@@ -57,4 +57,4 @@ OrientedBox BoxBuilder::box() const {
   return result;
 }
 
-}  // namespace sateen
+}  // namespace sateen::matcap

@@ -6,7 +6,7 @@
 
 #include "sateen/core/vector.h"
 
-namespace sateen {
+namespace sateen::matcap {
 
 /// A box that stands as its content does: a centre and three half axes at right angles to each other.
 struct OrientedBox {
@@ -49,4 +49,4 @@ class BoxBuilder {
   Vec3 high_ = -low_;
 };
 
-}  // namespace sateen
+}  // namespace sateen::matcap

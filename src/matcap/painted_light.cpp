@@ -7,7 +7,7 @@
 
 #include "sateen/core/parallel.h"
 
-namespace sateen {
+namespace sateen::matcap {
 namespace {
 
 constexpr int kLargestBitmap = 256;  // pixels: more than a blurred light shows
@@ -119,4 +119,4 @@ void paint(SphereMap& map, const LightPlace& place, const BitmapLight& light, co
   add_everywhere(map, place, [&](const Vec2& p) -> Vec3 { return light(p).cwiseProduct(color); });
 }
 
-}  // namespace sateen
+}  // namespace sateen::matcap

@@ -5,7 +5,7 @@
 #include "sateen/core/vector.h"
 #include "sateen/matcap/sphere_map.h"
 
-namespace sateen {
+namespace sateen::matcap {
 
 /// Where on the sphere of directions a light is drawn, and how it is turned: flat coordinates around
 /// `centre`, in which distances from the centre are angles (azimuthal equidistant). `up` is a direction that
@@ -53,4 +53,4 @@ class BitmapLight {
 /// Adds `color` times the bitmap to every texel.
 void paint(SphereMap& map, const LightPlace& place, const BitmapLight& light, const Vec3& color);
 
-}  // namespace sateen
+}  // namespace sateen::matcap

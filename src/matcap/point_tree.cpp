@@ -8,7 +8,7 @@
 #include "sateen/core/parallel.h"
 #include "sateen/matcap/oriented_box.h"
 
-namespace sateen {
+namespace sateen::matcap {
 namespace {
 
 constexpr std::size_t kLeafPoints = PointTree::kLeafPoints;
@@ -163,4 +163,4 @@ PointTree build_point_tree(const SphereTiles& tiles, const LaneValues& scale) {
   return tree;
 }
 
-}  // namespace sateen
+}  // namespace sateen::matcap

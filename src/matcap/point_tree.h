@@ -6,7 +6,7 @@
 
 #include "sateen/matcap/sphere_tiles.h"
 
-namespace sateen {
+namespace sateen::matcap {
 
 /// Boxes of four sibling nodes, side by side. A box is a centre and three half axes h at right angles to each
 /// other; for a unit direction n every point a of the node has
@@ -37,4 +37,4 @@ struct PointTree {
 /// A scale below or equal to 0 leaves the point out.
 PointTree build_point_tree(const SphereTiles& tiles, const LaneValues& scale);
 
-}  // namespace sateen
+}  // namespace sateen::matcap

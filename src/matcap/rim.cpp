@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace sateen {
+namespace sateen::matcap {
 namespace {
 
 constexpr double kWidth = 1.5;    // pixels: those that mix with the background, also in a resized picture
@@ -46,4 +46,4 @@ double rim_width(const Image& picture, const Disc& disc) {
   return difference > kSmooth * sum ? kWidth : 0;
 }
 
-}  // namespace sateen
+}  // namespace sateen::matcap

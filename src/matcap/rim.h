@@ -4,7 +4,7 @@
 #include "sateen/core/image.h"
 #include "sateen/matcap/sphere_disc.h"
 
-namespace sateen {
+namespace sateen::matcap {
 
 /// How many pixels from the disc's edge inwards mix with what is behind the sphere; 0 if `picture` (3
 /// channels) goes on smoothly to its edge. They are no light: unwarped, the steps of a drawn circle become
@@ -15,4 +15,4 @@ double rim_width(const Image& picture, const Disc& disc);
 /// Whether pixel (x, y) is on the disc and within `width` pixels of its edge.
 bool on_rim(const Disc& disc, double width, int x, int y);
 
-}  // namespace sateen
+}  // namespace sateen::matcap

@@ -11,7 +11,7 @@
 #include "sateen/core/parallel.h"
 #include "sateen/matcap/support_function.h"
 
-namespace sateen {
+namespace sateen::matcap {
 namespace {
 
 // Values at or below this count as black: their reciprocal must stay finite, and so must sums of it.
@@ -123,4 +123,4 @@ Image from_add_up_space(const Image& values, AddUpSpace space) {
   return space == AddUpSpace::display ? srgb_decoded(values) : values;
 }
 
-}  // namespace sateen
+}  // namespace sateen::matcap

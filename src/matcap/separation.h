@@ -6,7 +6,7 @@
 #include "sateen/core/image.h"
 #include "sateen/matcap/sphere_disc.h"
 
-namespace sateen {
+namespace sateen::matcap {
 
 /// The values in which low and high add up to the MatCap.
 enum class AddUpSpace {
@@ -51,4 +51,4 @@ Separation separate(const Image& picture, const Disc& disc, Outliers outliers, c
 Image to_add_up_space(const Image& linear, AddUpSpace space);
 Image from_add_up_space(const Image& values, AddUpSpace space);
 
-}  // namespace sateen
+}  // namespace sateen::matcap

@@ -6,7 +6,7 @@
 
 #include "sateen/matcap/sphere_blur.h"
 
-namespace sateen {
+namespace sateen::matcap {
 namespace {
 
 constexpr double kTexelsOfFilter =
@@ -44,4 +44,4 @@ SphereMap sharpened(const SphereMap& map, double variance) {
   return result;
 }
 
-}  // namespace sateen
+}  // namespace sateen::matcap

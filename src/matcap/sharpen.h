@@ -3,7 +3,7 @@
 
 #include "sateen/matcap/sphere_map.h"
 
-namespace sateen {
+namespace sateen::matcap {
 
 /// `map` as it would be under a filter whose variance is smaller by `variance` (radians^2): a shinier
 /// material. Richardson-Lucy deconvolution on the sphere, regularised in two ways. It stops after
@@ -14,4 +14,4 @@ SphereMap sharpened(const SphereMap& map, double variance);
 
 inline constexpr int kSharpenRounds = 15;
 
-}  // namespace sateen
+}  // namespace sateen::matcap

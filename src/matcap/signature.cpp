@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-namespace sateen {
+namespace sateen::matcap {
 namespace {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
@@ -193,4 +193,4 @@ Signature signature(const MeridianProfile& profile, double theta, double smalles
   return result;
 }
 
-}  // namespace sateen
+}  // namespace sateen::matcap

@@ -7,7 +7,7 @@
 #include "sateen/core/image.h"
 #include "sateen/matcap/sphere_disc.h"
 
-namespace sateen {
+namespace sateen::matcap {
 
 /// A MatCap component along the great circle through the view axis and a point of the sphere, the dimension
 /// in which its filter is measured (Zubiaga et al. 2015, section 3.3). Sample i is at angle theta = -pi/2 + i
@@ -63,4 +63,4 @@ struct Signature {
 /// first minimum after the second inflection, else the second inflection, else the widest.
 Signature signature(const MeridianProfile& profile, double theta, double smallest);
 
-}  // namespace sateen
+}  // namespace sateen::matcap

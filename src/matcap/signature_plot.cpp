@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-namespace sateen {
+namespace sateen::matcap {
 namespace {
 
 constexpr double kWidth = 640;
@@ -106,4 +106,4 @@ std::string signature_svg(std::span<const LabelledEstimate> curves) {
   return svg;
 }
 
-}  // namespace sateen
+}  // namespace sateen::matcap

@@ -6,7 +6,7 @@
 
 #include "sateen/matcap/filter_estimate.h"
 
-namespace sateen {
+namespace sateen::matcap {
 
 /// A curve of the plot and what to call it.
 struct LabelledEstimate {
@@ -18,4 +18,4 @@ struct LabelledEstimate {
 /// marked.
 std::string signature_svg(std::span<const LabelledEstimate> curves);
 
-}  // namespace sateen
+}  // namespace sateen::matcap

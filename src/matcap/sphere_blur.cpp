@@ -8,7 +8,7 @@
 
 #include "sateen/core/parallel.h"
 
-namespace sateen {
+namespace sateen::matcap {
 namespace {
 
 constexpr double kSupport = 12;  // d0^2 over the variance of (1 - d^2 / d0^2)^4 in the plane: 2 (4 + 2)
@@ -196,4 +196,4 @@ SphereMap blurred(const PrefilteredMap& map, double variance) {
   return blurred(coarse, 0, map.levels.front().size());
 }
 
-}  // namespace sateen
+}  // namespace sateen::matcap

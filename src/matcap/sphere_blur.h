@@ -3,7 +3,7 @@
 
 #include "sateen/matcap/sphere_map.h"
 
-namespace sateen {
+namespace sateen::matcap {
 
 /// `map` blurred by a radially symmetric, nearly Gaussian filter on the sphere whose variance along each axis
 /// of the tangent plane is `variance` (radians^2), as a map of `size` texels. The filter is (1 - d^2 /
@@ -19,4 +19,4 @@ PrefilteredMap prefilter(SphereMap map);
 /// 0.
 SphereMap blurred(const PrefilteredMap& map, double variance);
 
-}  // namespace sateen
+}  // namespace sateen::matcap

@@ -11,7 +11,7 @@
 
 #include "sateen/core/error.h"
 
-namespace sateen {
+namespace sateen::matcap {
 namespace {
 
 constexpr double kMinRadius = 2;           // pixels
@@ -170,4 +170,4 @@ Disc find_disc(const Image& image, const std::string& name) {
   return inscribed;
 }
 
-}  // namespace sateen
+}  // namespace sateen::matcap

@@ -6,7 +6,7 @@
 #include "sateen/core/image.h"
 #include "sateen/core/vector.h"
 
-namespace sateen {
+namespace sateen::matcap {
 
 /// Where the sphere of a MatCap lies in its picture: continuous pixel coordinates (pixel centres at +0.5, y
 /// down from the top row) and radius in pixels.
@@ -42,4 +42,4 @@ inline bool on_disc(const Disc& disc, int x, int y) {
   return disc_point(disc, x + 0.5, y + 0.5).squaredNorm() < 1;
 }
 
-}  // namespace sateen
+}  // namespace sateen::matcap

@@ -6,7 +6,7 @@
 
 #include "sateen/core/parallel.h"
 
-namespace sateen {
+namespace sateen::matcap {
 
 Vec3 direction_of_map(const Vec2& t, bool back) {
   const double r2 = t.squaredNorm();
@@ -61,4 +61,4 @@ Vec3 sample(const PrefilteredMap& map, const Vec3& direction, double variance) {
   return fraction > 0 ? Vec3(a + fraction * (sample(map.levels[fine + 1], direction) - a)) : a;
 }
 
-}  // namespace sateen
+}  // namespace sateen::matcap

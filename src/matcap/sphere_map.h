@@ -7,7 +7,7 @@
 #include "sateen/core/image.h"
 #include "sateen/core/vector.h"
 
-namespace sateen {
+namespace sateen::matcap {
 
 /// Colours over all directions as a dual paraboloid map (Heidrich and Seidel 1998): two square pictures of
 /// equal size, front for w.z >= 0 and back for w.z < 0, both indexed by the texture coordinate w.xy / (2 (1 +
@@ -49,4 +49,4 @@ double level_of_variance(const std::vector<double>& variances, double variance);
 /// Lookup blurred by `variance`.
 Vec3 sample(const PrefilteredMap& map, const Vec3& direction, double variance);
 
-}  // namespace sateen
+}  // namespace sateen::matcap

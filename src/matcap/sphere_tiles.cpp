@@ -7,7 +7,7 @@
 #include "sateen/core/parallel.h"
 #include "sateen/matcap/oriented_box.h"
 
-namespace sateen {
+namespace sateen::matcap {
 namespace {
 
 constexpr int kSide = SphereTiles::kSide;
@@ -115,4 +115,4 @@ SphereTiles tile_sphere(int width, int height, const Disc& disc) {
   return tiles;
 }
 
-}  // namespace sateen
+}  // namespace sateen::matcap

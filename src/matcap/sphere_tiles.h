@@ -6,7 +6,7 @@
 
 #include "sateen/matcap/sphere_disc.h"
 
-namespace sateen {
+namespace sateen::matcap {
 
 /// An oriented box (oriented_box.h) around the directions of a tile, rounded to single precision.
 struct DirectionBox {
@@ -41,4 +41,4 @@ SphereTiles tile_sphere(int width, int height, const Disc& disc);
 /// One number for each lane of a SphereTiles.
 using LaneValues = std::vector<float>;
 
-}  // namespace sateen
+}  // namespace sateen::matcap

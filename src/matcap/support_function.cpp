@@ -22,7 +22,7 @@
 #endif
 #define SATEEN_INLINE inline __attribute__((always_inline))
 
-namespace sateen {
+namespace sateen::matcap {
 namespace {
 
 constexpr std::size_t kLanes = SphereTiles::kLanes;
@@ -244,4 +244,4 @@ LaneValues support_of_scaled_normals(const SphereTiles& tiles, const LaneValues&
   return result;
 }
 
-}  // namespace sateen
+}  // namespace sateen::matcap

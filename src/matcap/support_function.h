@@ -3,7 +3,7 @@
 
 #include "sateen/matcap/sphere_tiles.h"
 
-namespace sateen {
+namespace sateen::matcap {
 
 /// max over q of n_p . (s_q n_q) for every lane p: the support function of the points s_q n_q in the
 /// directions of the normals. A scale below or equal to 0 leaves the point out. Branch and bound over a
@@ -12,4 +12,4 @@ namespace sateen {
 /// where no point is left.
 LaneValues support_of_scaled_normals(const SphereTiles& tiles, const LaneValues& scale);
 
-}  // namespace sateen
+}  // namespace sateen::matcap

@@ -11,7 +11,7 @@
 #include "sateen/matcap/blind_spot.h"
 #include "sateen/matcap/warp.h"
 
-namespace sateen {
+namespace sateen::matcap {
 namespace {
 
 constexpr int kCorrections = 12;           // at most
@@ -204,4 +204,4 @@ double unwarp_error(const SphereMap& map, const Image& component, const Disc& di
   return count > 0 ? std::sqrt(sum / count) : 0;
 }
 
-}  // namespace sateen
+}  // namespace sateen::matcap

@@ -5,7 +5,7 @@
 #include "sateen/matcap/sphere_disc.h"
 #include "sateen/matcap/sphere_map.h"
 
-namespace sateen {
+namespace sateen::matcap {
 
 /// Turns a component of a MatCap into the sphere map that warp() reads (Zubiaga et al. 2015, section 4.2):
 /// each texel takes the colour of the normal that looks in its direction, the blind spot is filled
@@ -18,4 +18,4 @@ SphereMap unwarp_to_sphere(const Image& component, const Disc& disc, double slop
 /// Root mean square over the sphere's pixels and channels of component - lookup.
 double unwarp_error(const SphereMap& map, const Image& component, const Disc& disc, double slope);
 
-}  // namespace sateen
+}  // namespace sateen::matcap

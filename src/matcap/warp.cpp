@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace sateen {
+namespace sateen::matcap {
 namespace {
 
 /// `v` with its angle to +z multiplied by `factor`; +z stays, -z goes around +x.
@@ -33,4 +33,4 @@ double blind_spot_angle(double mu) {
   return (1 - mu) * kPi / 2;
 }
 
-}  // namespace sateen
+}  // namespace sateen::matcap

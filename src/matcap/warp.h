@@ -3,7 +3,7 @@
 
 #include "sateen/core/vector.h"
 
-namespace sateen {
+namespace sateen::matcap {
 
 /// Slope of a material filter of variance `nu` (radians^2): mu = 1 - 0.3 nu - 1.1 nu^2 (Zubiaga et al. 2015,
 /// section 3.1), kept in [0, 1]. 1 looks at the mirror direction, 0 along the normal.
@@ -21,4 +21,4 @@ Vec3 unwarp(const Vec3& w, double mu);
 /// Angle from -z within which no visible point looks: (1 - mu) pi/2.
 double blind_spot_angle(double mu);
 
-}  // namespace sateen
+}  // namespace sateen::matcap

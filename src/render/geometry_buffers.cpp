@@ -6,7 +6,7 @@
 
 #include <epoxy/gl.h>
 
-namespace sateen {
+namespace sateen::render {
 namespace {
 
 enum Attribute : GLuint { kPosition, kNormal, kTangent, kMapTangent, kUv, kOcclusion, kCurvature };
@@ -40,7 +40,8 @@ std::span<const std::string> GeometryBuffers::attributes() {
   return names;
 }
 
-GeometryBuffers::GeometryBuffers(const Scene& scene) : counter_clockwise_(winds_with_normals(scene.mesh)) {
+GeometryBuffers::GeometryBuffers(const scene::Scene& scene)
+    : counter_clockwise_(winds_with_normals(scene.mesh)) {
   const Mesh& mesh = scene.mesh;
   GLuint name = 0;
   glGenVertexArrays(1, &name);
@@ -89,4 +90,4 @@ void GeometryBuffers::draw(std::size_t material) const {
                  reinterpret_cast<const void*>(first * sizeof(std::uint32_t)));
 }
 
-}  // namespace sateen
+}  // namespace sateen::render

@@ -6,14 +6,14 @@
 #include <vector>
 
 #include "sateen/gpu/handle.h"
-#include "sateen/render/scene.h"
+#include "sateen/scene/scene.h"
 
-namespace sateen {
+namespace sateen::render {
 
 /// A mesh on the GPU, its triangles sorted by material.
 class GeometryBuffers {
  public:
-  explicit GeometryBuffers(const Scene& scene);
+  explicit GeometryBuffers(const scene::Scene& scene);
 
   /// Names of the vertex attributes by location, as shaders/surface.vert spells them.
   static std::span<const std::string> attributes();
@@ -31,4 +31,4 @@ class GeometryBuffers {
   bool counter_clockwise_ = true;
 };
 
-}  // namespace sateen
+}  // namespace sateen::render

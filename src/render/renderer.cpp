@@ -13,10 +13,10 @@
 #include "sateen/render/geometry_buffers.h"
 #include "sateen/render/surface_pipeline.h"
 
-namespace sateen {
+namespace sateen::render {
 namespace {
 
-const Scene& checked(const Scene& scene) {
+const scene::Scene& checked(const scene::Scene& scene) {
   const Mesh& mesh = scene.mesh;
   if (mesh.triangles.empty()) throw Error("the mesh has no triangles");
   if (mesh.normals.empty()) throw Error("the mesh has no normals; compute them first");
@@ -26,9 +26,9 @@ const Scene& checked(const Scene& scene) {
     throw Error(
         fmt::format("the mesh has {} materials and {} appearances", materials, scene.materials.size()));
   }
-  for (const Material& material : scene.materials) {
+  for (const scene::Material& material : scene.materials) {
     if (!material.appearance) throw Error("a material has no appearance");
-    const Appearance::Needs needs = material.appearance->needs();
+    const appearance::Appearance::Needs needs = material.appearance->needs();
     const bool mapped =
         material.normal_map.texture || material.direction_map.texture || material.occlusion_map.texture;
     if ((needs.tangents || material.normal_map.texture || material.direction_map.texture) &&
@@ -81,12 +81,12 @@ struct Renderer::Data {
   std::vector<SurfacePipeline> pipelines;  ///< by material
   std::vector<SurfacePipeline>
       surface_pipelines;  ///< the same, writing the surface too; made when first needed
-  std::vector<Material> materials;
-  RenderSwitches switches;
+  std::vector<scene::Material> materials;
+  scene::RenderSwitches switches;
   gpu::Program resolve;
   gpu::Handle no_attributes;
 
-  explicit Data(const Scene& scene)
+  explicit Data(const scene::Scene& scene)
       : geometry(scene),
         materials(scene.materials),
         switches(scene.switches),
@@ -105,7 +105,8 @@ struct Renderer::Data {
     return result;
   }
 
-  void draw(const std::vector<SurfacePipeline>& with, const View& view, const Mat4& clip_from_view) const {
+  void draw(const std::vector<SurfacePipeline>& with, const scene::View& view,
+            const Mat4& clip_from_view) const {
     glEnable(GL_DEPTH_TEST);
     glDisable(GL_CULL_FACE);
     glDisable(GL_BLEND);
@@ -127,7 +128,7 @@ struct Renderer::Data {
     glDrawArrays(GL_TRIANGLES, 0, 3);
   }
 
-  Image colour_tile(const View& view, const Mat4& clip_from_view, const Rectangle& tile,
+  Image colour_tile(const scene::View& view, const Mat4& clip_from_view, const Rectangle& tile,
                     const PictureSettings& settings) const {
     const int samples = settings.samples;
     const gpu::Framebuffer large(tile.width * samples, tile.height * samples);
@@ -142,8 +143,8 @@ struct Renderer::Data {
     return small.read();
   }
 
-  void surface_tile(const View& view, const Mat4& clip_from_view, const Rectangle& tile,
-                    SurfaceImages& images) {
+  void surface_tile(const scene::View& view, const Mat4& clip_from_view, const Rectangle& tile,
+                    scene::SurfaceImages& images) {
     if (surface_pipelines.empty()) surface_pipelines = compile(true);
     const gpu::Framebuffer target(tile.width, tile.height, 7);
     target.bind();
@@ -158,12 +159,13 @@ struct Renderer::Data {
   }
 };
 
-Renderer::Renderer(const Scene& scene) : data_(std::make_unique<Data>(checked(scene))) {}
+Renderer::Renderer(const scene::Scene& scene) : data_(std::make_unique<Data>(checked(scene))) {}
 Renderer::~Renderer() = default;
 Renderer::Renderer(Renderer&&) noexcept = default;
 Renderer& Renderer::operator=(Renderer&&) noexcept = default;
 
-Frame Renderer::render(const View& view, const PictureSettings& settings, const Progress& progress) const {
+Picture Renderer::render(const scene::View& view, const PictureSettings& settings,
+                         const Progress& progress) const {
   if (settings.width < 1 || settings.height < 1 || settings.samples < 1) {
     throw Error("a picture needs at least one pixel and one sample");
   }
@@ -171,12 +173,11 @@ Frame Renderer::render(const View& view, const PictureSettings& settings, const 
   if (side < 1)
     throw Error(fmt::format("{} samples are more than this OpenGL driver can draw", settings.samples));
 
-  Frame frame;
-  frame.perspective = view.perspective;
-  frame.colour = Image(settings.width, settings.height, 4);
+  Picture picture;
+  picture.colour = Image(settings.width, settings.height, 4);
   if (settings.surfaces) {
     const Image empty(settings.width, settings.height, 4);
-    frame.surfaces = SurfaceImages{empty, empty, empty, empty, empty, empty};
+    picture.surfaces = scene::SurfaceImages{empty, empty, empty, empty, empty, empty, view.perspective};
   }
   const int columns = (settings.width + side - 1) / side;
   const int rows = (settings.height + side - 1) / side;
@@ -185,15 +186,15 @@ Frame Renderer::render(const View& view, const PictureSettings& settings, const 
     tile.width = std::min(side, settings.width - tile.x);
     tile.height = std::min(side, settings.height - tile.y);
     const Mat4 clip_from_view = tile_projection(view.clip_from_view, tile, settings);
-    paste(data_->colour_tile(view, clip_from_view, tile, settings), tile, frame.colour);
-    if (frame.surfaces) data_->surface_tile(view, clip_from_view, tile, *frame.surfaces);
+    paste(data_->colour_tile(view, clip_from_view, tile, settings), tile, picture.colour);
+    if (picture.surfaces) data_->surface_tile(view, clip_from_view, tile, *picture.surfaces);
     report(progress, (i + 1.0) / (rows * columns));
   }
-  return frame;
+  return picture;
 }
 
-void Renderer::draw(const View& view) const {
+void Renderer::draw(const scene::View& view) const {
   data_->draw(data_->pipelines, view, view.clip_from_view);
 }
 
-}  // namespace sateen
+}  // namespace sateen::render

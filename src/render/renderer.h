@@ -5,18 +5,18 @@
 #include <optional>
 
 #include "sateen/core/progress.h"
-#include "sateen/render/camera.h"
-#include "sateen/render/frame.h"
-#include "sateen/render/scene.h"
+#include "sateen/render/picture.h"
+#include "sateen/scene/camera.h"
+#include "sateen/scene/scene.h"
 
-namespace sateen {
+namespace sateen::render {
 
 struct PictureSettings {
   int width = 1024;
   int height = 1024;
   int samples = 3;                       ///< samples x samples in each pixel, averaged in linear light
   std::optional<Vec3f> background = {};  ///< linear; nothing is transparent
-  bool surfaces = false;                 ///< fill Frame::surfaces too
+  bool surfaces = false;                 ///< fill Picture::surfaces too
   int tile = 4096;  ///< largest side, in samples, drawn at once; more is put together from tiles
 };
 
@@ -26,20 +26,21 @@ class Renderer {
  public:
   /// Throws Error when a material needs what the mesh does not have, and when the driver cannot hold the
   /// scene.
-  explicit Renderer(const Scene& scene);
+  explicit Renderer(const scene::Scene& scene);
   ~Renderer();
   Renderer(Renderer&&) noexcept;
   Renderer& operator=(Renderer&&) noexcept;
 
   /// One picture.
-  Frame render(const View& view, const PictureSettings& settings, const Progress& progress = {}) const;
+  Picture render(const scene::View& view, const PictureSettings& settings,
+                 const Progress& progress = {}) const;
 
   /// Draws into whatever framebuffer is bound, over what is in it, with depth test; clearing is the caller's.
-  void draw(const View& view) const;
+  void draw(const scene::View& view) const;
 
  private:
   struct Data;
   std::unique_ptr<Data> data_;
 };
 
-}  // namespace sateen
+}  // namespace sateen::render

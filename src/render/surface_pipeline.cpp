@@ -5,28 +5,28 @@
 
 #include "sateen/render/geometry_buffers.h"
 
-namespace sateen {
+namespace sateen::render {
 namespace {
 
-std::string define(TangentAngle mode) {
+std::string define(scene::TangentAngle mode) {
   switch (mode) {
-    case TangentAngle::vertex:
+    case scene::TangentAngle::vertex:
       return "TANGENT_ANGLE_VERTEX";
-    case TangentAngle::naive:
+    case scene::TangentAngle::naive:
       return "TANGENT_ANGLE_NAIVE";
-    case TangentAngle::fragment:
+    case scene::TangentAngle::fragment:
       break;
   }
   return "TANGENT_ANGLE_FRAGMENT";
 }
 
-std::string define(Perspective mode) {
+std::string define(scene::Perspective mode) {
   switch (mode) {
-    case Perspective::equation4:
+    case scene::Perspective::equation4:
       return "PERSPECTIVE_EQUATION4";
-    case Perspective::none:
+    case scene::Perspective::none:
       return "PERSPECTIVE_NONE";
-    case Perspective::rotation:
+    case scene::Perspective::rotation:
       break;
   }
   return "PERSPECTIVE_ROTATION";
@@ -36,12 +36,12 @@ std::string define(bool on) {
   return on ? "true" : "false";
 }
 
-gpu::Program compile(const Material& material, const ShaderBinding& shader, const RenderSwitches& switches,
-                     bool write_surface) {
+gpu::Program compile(const scene::Material& material, const appearance::ShaderBinding& shader,
+                     const scene::RenderSwitches& switches, bool write_surface) {
   const bool mapped = material.normal_map.texture || material.direction_map.texture;
   const gpu::Defines defines{
       {"APPEARANCE", shader.function},
-      {"TANGENT_ANGLE", define(mapped ? TangentAngle::fragment : switches.tangent_angle)},
+      {"TANGENT_ANGLE", define(mapped ? scene::TangentAngle::fragment : switches.tangent_angle)},
       {"TANGENT_SYMMETRY", fmt::format("{}.0", material.appearance->tangent_symmetry())},
       {"PERSPECTIVE", define(switches.perspective)},
       {"RENORMALISE", define(switches.renormalise)},
@@ -59,13 +59,14 @@ gpu::Program compile(const Material& material, const ShaderBinding& shader, cons
 
 }  // namespace
 
-SurfacePipeline::SurfacePipeline(const Material& material, int index, const RenderSwitches& switches,
-                                 bool write_surface)
+SurfacePipeline::SurfacePipeline(const scene::Material& material, int index,
+                                 const scene::RenderSwitches& switches, bool write_surface)
     : program_(compile(material, material.appearance->shader(), switches, write_surface)) {
-  const ShaderBinding shader = material.appearance->shader();
+  const appearance::ShaderBinding shader = material.appearance->shader();
   program_.use();
-  for (const UniformBinding& uniform : shader.uniforms) program_.set(uniform.name, uniform.value);
-  for (const TextureBinding& texture : shader.textures) add_texture(texture.sampler, *texture.texture);
+  for (const appearance::UniformBinding& uniform : shader.uniforms) program_.set(uniform.name, uniform.value);
+  for (const appearance::TextureBinding& texture : shader.textures)
+    add_texture(texture.sampler, *texture.texture);
   add_map("surface_normal_map", material.normal_map);
   add_map("surface_direction_map", material.direction_map);
   add_map("surface_occlusion_map", material.occlusion_map);
@@ -78,13 +79,13 @@ void SurfacePipeline::add_texture(const std::string& sampler, const TextureData&
   textures_.emplace_back(data);
 }
 
-void SurfacePipeline::add_map(const std::string& name, const SurfaceMap& map) {
+void SurfacePipeline::add_map(const std::string& name, const scene::SurfaceMap& map) {
   if (!map.texture) return;
   add_texture(name, *map.texture);
   program_.set(name + "_transform", Vec4f(map.scale.x(), map.scale.y(), map.offset.x(), map.offset.y()));
 }
 
-void SurfacePipeline::use(const View& view, const Mat4& clip_from_view, bool counter_clockwise) const {
+void SurfacePipeline::use(const scene::View& view, const Mat4& clip_from_view, bool counter_clockwise) const {
   program_.use();
   program_.set("view_from_object", Eigen::Matrix4f(view.view_from_object.cast<float>()));
   program_.set("clip_from_view", Eigen::Matrix4f(clip_from_view.cast<float>()));
@@ -93,4 +94,4 @@ void SurfacePipeline::use(const View& view, const Mat4& clip_from_view, bool cou
   for (std::size_t unit = 0; unit < textures_.size(); ++unit) textures_[unit].bind(static_cast<int>(unit));
 }
 
-}  // namespace sateen
+}  // namespace sateen::render

@@ -14,7 +14,7 @@
 #include "sateen/io/file.h"
 #include "sateen/io/image_rows.h"
 
-namespace sateen {
+namespace sateen::texture {
 namespace {
 
 namespace fs = std::filesystem;
@@ -32,10 +32,10 @@ Enum from_name(const std::string& name, const std::array<std::pair<const char*, 
   throw Error(fmt::format("unknown {} {}: use one of {}", what, name, list));
 }
 
-RowSamples samples_for(const fs::path& output, int bits) {
-  const std::string extension = extension_of(output);
-  if (extension == ".exr") return RowSamples::f32;
-  if (extension == ".png") return bits == 8 ? RowSamples::u8 : RowSamples::u16;
+io::RowSamples samples_for(const fs::path& output, int bits) {
+  const std::string extension = io::extension_of(output);
+  if (extension == ".exr") return io::RowSamples::f32;
+  if (extension == ".png") return bits == 8 ? io::RowSamples::u8 : io::RowSamples::u16;
   throw Error(fmt::format("{}: maps are written as .png or .exr", output.string()));
 }
 
@@ -47,8 +47,8 @@ class InputRows {
     inputs_.push_back({input, nullptr, {}});
     if (input.file.empty()) return inputs_.size() - 1;
     Input& added = inputs_.back();
-    added.reader = std::make_unique<ImageRowReader>(input.file);
-    const ImageRowReader& r = *added.reader;
+    added.reader = std::make_unique<io::ImageRowReader>(input.file);
+    const io::ImageRowReader& r = *added.reader;
     if (first_ != nullptr && (r.width() != first_->width() || r.height() != first_->height())) {
       throw Error(fmt::format("{}: is {} x {} but {} is {} x {}; all maps need the same size",
                               r.path().string(), r.width(), r.height(), first_->path().string(),
@@ -84,11 +84,11 @@ class InputRows {
  private:
   struct Input {
     MapInput source;
-    std::unique_ptr<ImageRowReader> reader;
+    std::unique_ptr<io::ImageRowReader> reader;
     std::vector<float> rows;
   };
   std::vector<Input> inputs_;
-  const ImageRowReader* first_ = nullptr;
+  const io::ImageRowReader* first_ = nullptr;
 };
 
 /// Runs `texel` over a picture in strips: it reads from `inputs` and fills three channels of each output.
@@ -97,10 +97,10 @@ void write_maps(InputRows& inputs, std::vector<fs::path> outputs, int bits,
                 const Progress& progress) {
   const auto run = [&](const std::vector<fs::path>& files) {
     const std::size_t width = static_cast<std::size_t>(inputs.width());
-    std::vector<std::unique_ptr<ImageRowWriter>> writers;
+    std::vector<std::unique_ptr<io::ImageRowWriter>> writers;
     for (std::size_t i = 0; i < files.size(); ++i) {
-      writers.push_back(std::make_unique<ImageRowWriter>(files[i], outputs[i], inputs.width(),
-                                                         inputs.height(), 3, samples_for(outputs[i], bits)));
+      writers.push_back(std::make_unique<io::ImageRowWriter>(
+          files[i], outputs[i], inputs.width(), inputs.height(), 3, samples_for(outputs[i], bits)));
     }
     for (int y = 0; y < inputs.height(); y += kRows) {
       const int count = std::min(kRows, inputs.height() - y);
@@ -123,22 +123,22 @@ void write_maps(InputRows& inputs, std::vector<fs::path> outputs, int bits,
     for (auto& writer : writers) writer->close();
   };
   for (const fs::path& output : outputs) samples_for(output, bits);
-  write_atomically(outputs[0], [&](const fs::path& first) {
+  io::write_atomically(outputs[0], [&](const fs::path& first) {
     if (outputs.size() == 1) return run({first});
-    write_atomically(outputs[1], [&](const fs::path& second) { run({first, second}); });
+    io::write_atomically(outputs[1], [&](const fs::path& second) { run({first, second}); });
   });
 }
 
 /// What a convention's functions are, for those that store roughness, strength and rotation.
 struct Convention {
-  AnisotropicRoughness (*from)(const AnisotropyParameters&);
-  AnisotropyParameters (*to)(const AnisotropicRoughness&);
+  brdf::AnisotropicRoughness (*from)(const brdf::AnisotropyParameters&);
+  brdf::AnisotropyParameters (*to)(const brdf::AnisotropicRoughness&);
 };
-constexpr Convention kGltf{from_gltf, to_gltf};
-constexpr Convention kBlender{from_blender, to_blender};
-constexpr Convention kSubstance{from_substance, to_substance};
-constexpr Convention kMaterialX{from_materialx, to_materialx};
-constexpr Convention kFilament{from_filament, to_filament};
+constexpr Convention kGltf{brdf::from_gltf, brdf::to_gltf};
+constexpr Convention kBlender{brdf::from_blender, brdf::to_blender};
+constexpr Convention kSubstance{brdf::from_substance, brdf::to_substance};
+constexpr Convention kMaterialX{brdf::from_materialx, brdf::to_materialx};
+constexpr Convention kFilament{brdf::from_filament, brdf::to_filament};
 
 Convention convention_of(AnisotropyStyle style) {
   switch (style) {
@@ -249,13 +249,13 @@ void author_anisotropy(const AuthorInputs& in, const fs::path& output, Anisotrop
     const double value = rows.value(first, i);
     const double rotation_angle = 2 * kPi * turns;
     if (!uv) return convention.from({value, amount, rotation_angle});
-    return in.gloss ? from_uv({1 - value, 1 - amount, rotation_angle})
-                    : from_uv({value, amount, rotation_angle});
+    return in.gloss ? brdf::from_uv({1 - value, 1 - amount, rotation_angle})
+                    : brdf::from_uv({value, amount, rotation_angle});
   };
   write_maps(
       rows, {output}, bits,
       [&](std::size_t i, std::vector<std::array<float, 3>>& out) {
-        const Vec3 c = encode_anisotropy(roughness_matrix(lobe(i)), encoding);
+        const Vec3 c = encode_anisotropy(brdf::roughness_matrix(lobe(i)), encoding);
         out[0] = triple(c[0], c[1], c[2]);
       },
       progress);
@@ -277,24 +277,24 @@ std::vector<fs::path> decode_anisotropy_map(const fs::path& map, AnisotropyEncod
       rows, outputs, bits,
       [&](std::size_t i, std::vector<std::array<float, 3>>& out) {
         const Vec3 c(rows.value(input, i), rows.value(input, i, 1), rows.value(input, i, 2));
-        const AnisotropicRoughness lobe = roughness_from_matrix(decode_anisotropy(c, encoding));
+        const brdf::AnisotropicRoughness lobe = brdf::roughness_from_matrix(decode_anisotropy(c, encoding));
         switch (style) {
           case DecodeStyle::alphas:
             out[0] = triple(lobe.alpha_t, lobe.alpha_b, lobe.azimuth / kPi);
             break;
           case DecodeStyle::uv: {
-            const UvRoughness s = to_uv(lobe);
+            const brdf::UvRoughness s = brdf::to_uv(lobe);
             out[0] = triple(s.along, s.across, s.rotation / kPi);
             break;
           }
           case DecodeStyle::gltf: {
-            const AnisotropyParameters s = convention.to(lobe);
+            const brdf::AnisotropyParameters s = convention.to(lobe);
             out[0] = triple(std::cos(s.rotation) / 2 + 0.5, std::sin(s.rotation) / 2 + 0.5, s.anisotropy);
             out[1] = triple(s.roughness, s.roughness, s.roughness);
             break;
           }
           default: {
-            const AnisotropyParameters s = convention.to(lobe);
+            const brdf::AnisotropyParameters s = convention.to(lobe);
             out[0] = triple(s.roughness, s.anisotropy, s.rotation / (2 * kPi));
           }
         }
@@ -303,4 +303,4 @@ std::vector<fs::path> decode_anisotropy_map(const fs::path& map, AnisotropyEncod
   return outputs;
 }
 
-}  // namespace sateen
+}  // namespace sateen::texture

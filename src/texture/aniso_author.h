@@ -8,7 +8,7 @@
 #include "sateen/core/progress.h"
 #include "sateen/texture/anisotropy.h"
 
-namespace sateen {
+namespace sateen::texture {
 
 /// A channel of a picture, or one value everywhere.
 struct MapInput {
@@ -65,4 +65,4 @@ std::vector<std::filesystem::path> decode_anisotropy_map(const std::filesystem::
                                                          const std::filesystem::path& output, int bits = 16,
                                                          const Progress& progress = {});
 
-}  // namespace sateen
+}  // namespace sateen::texture

@@ -5,10 +5,10 @@
 
 #include "sateen/core/error.h"
 
-namespace sateen {
+namespace sateen::texture {
 namespace {
 
-constexpr double kMinEigenvalue = kMinimumAlpha * kMinimumAlpha;
+constexpr double kMinEigenvalue = brdf::kMinimumAlpha * brdf::kMinimumAlpha;
 
 struct Eigen2 {
   double large;
@@ -141,4 +141,4 @@ Mat2 tangent_part(const Mat3& s, const Vec3& normal) {
   return local.topLeftCorner<2, 2>() * scale;
 }
 
-}  // namespace sateen
+}  // namespace sateen::texture

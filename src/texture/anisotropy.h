@@ -8,7 +8,7 @@
 #include "sateen/brdf/ggx.h"
 #include "sateen/core/vector.h"
 
-namespace sateen {
+namespace sateen::texture {
 
 // The GGX lobe of a texel is two alphas and an axis, or the 2 x 2 symmetric matrix that has the squared
 // alphas as eigenvalues:
@@ -72,4 +72,4 @@ Vec3 principal_axis_by_power_iteration(const Mat3& s, int steps = 8);
 /// n).
 Mat2 tangent_part(const Mat3& s, const Vec3& normal);
 
-}  // namespace sateen
+}  // namespace sateen::texture

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-namespace sateen {
+namespace sateen::texture {
 namespace {
 
 using Values = std::array<float, 16>;
@@ -130,4 +130,4 @@ void encode_bc5_block(const BlockRgba8& block, std::span<std::byte, 16> out) {
   }
 }
 
-}  // namespace sateen
+}  // namespace sateen::texture

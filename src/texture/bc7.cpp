@@ -9,7 +9,7 @@
 #include "sateen/texture/bc7_partitions.h"
 #include "sateen/texture/bc7_tables.h"
 
-namespace sateen {
+namespace sateen::texture {
 namespace {
 
 using namespace bc7;
@@ -261,4 +261,4 @@ void encode_bc7_block(const BlockRgba8& block, const Bc7Options& options, std::s
   write(best, out);
 }
 
-}  // namespace sateen
+}  // namespace sateen::texture

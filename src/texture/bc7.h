@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <span>
 
-namespace sateen {
+namespace sateen::texture {
 
 /// A 4 x 4 block of 8-bit RGBA, row by row.
 using BlockRgba8 = std::array<std::array<std::uint8_t, 4>, 16>;
@@ -28,4 +28,4 @@ struct Bc7Options {
 /// that rounds floats the IEEE way.
 void encode_bc7_block(const BlockRgba8& block, const Bc7Options& options, std::span<std::byte, 16> out);
 
-}  // namespace sateen
+}  // namespace sateen::texture

@@ -8,7 +8,7 @@
 #include "sateen/core/parallel.h"
 #include "sateen/texture/bc5.h"
 
-namespace sateen {
+namespace sateen::texture {
 namespace {
 
 BlockRgba8 block_at(std::span<const std::uint8_t> rgba, int width, int height, int bx, int by) {
@@ -30,18 +30,18 @@ std::size_t block_bytes(BlockFormat format) {
   return format == BlockFormat::bc1 ? 8 : 16;
 }
 
-VkFormat vk_format(BlockFormat format, bool srgb) {
+io::VkFormat vk_format(BlockFormat format, bool srgb) {
   switch (format) {
     case BlockFormat::bc1:
-      return VkFormat::bc1_rgb_unorm;
+      return io::VkFormat::bc1_rgb_unorm;
     case BlockFormat::bc3:
-      return VkFormat::bc3_unorm;
+      return io::VkFormat::bc3_unorm;
     case BlockFormat::bc5:
-      return VkFormat::bc5_unorm;
+      return io::VkFormat::bc5_unorm;
     case BlockFormat::bc7:
       break;
   }
-  return srgb ? VkFormat::bc7_srgb : VkFormat::bc7_unorm;
+  return srgb ? io::VkFormat::bc7_srgb : io::VkFormat::bc7_unorm;
 }
 
 std::vector<std::byte> compress_blocks(BlockFormat format, std::span<const std::uint8_t> rgba, int width,
@@ -75,4 +75,4 @@ std::vector<std::byte> compress_blocks(BlockFormat format, std::span<const std::
   return blocks;
 }
 
-}  // namespace sateen
+}  // namespace sateen::texture

@@ -10,7 +10,7 @@
 #include "sateen/io/ktx2.h"
 #include "sateen/texture/bc7.h"
 
-namespace sateen {
+namespace sateen::texture {
 
 /// Block formats for 8-bit data; every 4 x 4 texels become 8 (bc1) or 16 bytes.
 enum class BlockFormat {
@@ -21,7 +21,7 @@ enum class BlockFormat {
 };
 
 std::size_t block_bytes(BlockFormat format);
-VkFormat vk_format(BlockFormat format, bool srgb = false);
+io::VkFormat vk_format(BlockFormat format, bool srgb = false);
 
 /// Compresses a picture of 8-bit RGBA texels (width * height * 4 bytes, row by row) into blocks, row by row
 /// of blocks. The blocks at the right and lower border repeat the last texel. BC1 and BC3 are libsquish's.
@@ -29,4 +29,4 @@ VkFormat vk_format(BlockFormat format, bool srgb = false);
 std::vector<std::byte> compress_blocks(BlockFormat format, std::span<const std::uint8_t> rgba, int width,
                                        int height, const Bc7Options& options = {});
 
-}  // namespace sateen
+}  // namespace sateen::texture

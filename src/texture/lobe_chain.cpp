@@ -5,7 +5,7 @@
 
 #include "sateen/core/parallel.h"
 
-namespace sateen {
+namespace sateen::texture {
 namespace {
 
 using MomentRow = MipRowFilter::Row;
@@ -105,4 +105,4 @@ void filter_lobe_chain(LobeSource& source, LobeSink& sink, const ChainOptions& o
   }
 }
 
-}  // namespace sateen
+}  // namespace sateen::texture

@@ -8,7 +8,7 @@
 #include "sateen/texture/lobe_filter.h"
 #include "sateen/texture/mip_rows.h"
 
-namespace sateen {
+namespace sateen::texture {
 
 /// Where the texels of a normal and anisotropy map come from: rows from the top, each once.
 class LobeSource {
@@ -47,4 +47,4 @@ struct ChainOptions {
 void filter_lobe_chain(LobeSource& source, LobeSink& sink, const ChainOptions& options,
                        const Progress& progress = {});
 
-}  // namespace sateen
+}  // namespace sateen::texture

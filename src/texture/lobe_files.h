@@ -9,7 +9,7 @@
 #include "sateen/texture/bc7.h"
 #include "sateen/texture/lobe_chain.h"
 
-namespace sateen {
+namespace sateen::texture {
 
 /// How a normal map stores its vectors.
 struct NormalMapFormat {
@@ -30,8 +30,8 @@ struct LobeMapFiles {
   std::filesystem::path anisotropy;  ///< three channels as `encoding` says
   AnisotropyEncoding encoding = AnisotropyEncoding::root;
   std::filesystem::path
-      roughness;                  ///< instead of `anisotropy`: isotropic, first channel, alpha = roughness^2
-  AnisotropicRoughness constant;  ///< when neither map is given
+      roughness;  ///< instead of `anisotropy`: isotropic, first channel, alpha = roughness^2
+  brdf::AnisotropicRoughness constant;  ///< when neither map is given
 };
 
 /// Reads the maps row by row.
@@ -79,4 +79,4 @@ std::vector<std::filesystem::path> write_lobe_chain(LobeSource& source, const st
                                                     const ChainOptions& chain, const LobeOutput& output,
                                                     const Progress& progress = {});
 
-}  // namespace sateen
+}  // namespace sateen::texture

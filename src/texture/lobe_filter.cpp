@@ -9,7 +9,7 @@
 
 #include "sateen/core/error.h"
 
-namespace sateen {
+namespace sateen::texture {
 namespace {
 
 constexpr std::array<std::pair<FilterMethod, const char*>, 4> kNames{
@@ -125,4 +125,4 @@ LobeTexel unpack_moments(std::span<const float, kMoments> v, const FilterOptions
   return texel;
 }
 
-}  // namespace sateen
+}  // namespace sateen::texture

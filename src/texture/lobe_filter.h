@@ -6,7 +6,7 @@
 
 #include "sateen/texture/anisotropy.h"
 
-namespace sateen {
+namespace sateen::texture {
 
 /// How a normal map and its anisotropy map are averaged together. Each method turns a texel into moments that
 /// average linearly, and averaged moments back into a normal and a matrix; any linear filter may stand
@@ -56,4 +56,4 @@ LobeTexel unpack_moments(std::span<const float, kMoments> moments, const FilterO
 /// mean, which keeps the peak, comes no closer to averaged lobes.)
 Mat2 isotropic_matrix(const Mat2& s);
 
-}  // namespace sateen
+}  // namespace sateen::texture

@@ -9,7 +9,7 @@
 #include "sateen/io/blocks.h"
 #include "sateen/io/ktx2.h"
 
-namespace sateen {
+namespace sateen::texture {
 namespace {
 
 namespace fs = std::filesystem;
@@ -42,15 +42,15 @@ class MemorySink : public LobeSink {
   LobeMips& mips_;
 };
 
-std::vector<Image> levels_of(const Ktx2& texture, const fs::path& path) {
+std::vector<Image> levels_of(const io::Ktx2& texture, const fs::path& path) {
   std::vector<Image> levels;
   for (std::size_t i = 0; i < texture.levels.size(); ++i) {
     const int width = static_cast<int>(std::max(texture.width >> i, 1u));
     const int height = static_cast<int>(std::max(texture.height >> i, 1u));
     const std::vector<std::byte>& bytes = texture.levels[i];
-    const bool two = texture.format == VkFormat::rg8_unorm;
-    if (!two && texture.format != VkFormat::rgba8_unorm) {
-      levels.push_back(decode_blocks(texture.format, bytes, width, height, path.string()));
+    const bool two = texture.format == io::VkFormat::rg8_unorm;
+    if (!two && texture.format != io::VkFormat::rgba8_unorm) {
+      levels.push_back(io::decode_blocks(texture.format, bytes, width, height, path.string()));
       continue;
     }
     Image& image = levels.emplace_back(width, height, two ? 2 : 4);
@@ -61,7 +61,7 @@ std::vector<Image> levels_of(const Ktx2& texture, const fs::path& path) {
 }
 
 /// The value of a key that write_lobe_chain sets.
-std::string note(const Ktx2& texture, const std::string& key, const fs::path& path) {
+std::string note(const io::Ktx2& texture, const std::string& key, const fs::path& path) {
   const auto found = texture.metadata.find(key);
   if (found == texture.metadata.end() || texture.depth > 0 || texture.layers > 0 || texture.faces != 1) {
     throw Error(fmt::format("{}: is no such map ({} is not in it); \"sateen maps aniso filter\" makes one",
@@ -83,8 +83,8 @@ LobeMips make_lobe_mips(LobeSource& source, const ChainOptions& options, Anisotr
 }
 
 LobeMips read_lobe_mips(const fs::path& normals, const fs::path& anisotropy) {
-  const Ktx2 n = read_ktx2(normals);
-  const Ktx2 a = read_ktx2(anisotropy);
+  const io::Ktx2 n = io::read_ktx2(normals);
+  const io::Ktx2 a = io::read_ktx2(anisotropy);
   LobeMips mips;
   mips.green_down = note(n, "SateenNormals", normals) == "xy, green down";
   mips.encoding = anisotropy_encoding_from_name(note(a, "SateenAnisotropy", anisotropy));
@@ -98,4 +98,4 @@ LobeMips read_lobe_mips(const fs::path& normals, const fs::path& anisotropy) {
   return mips;
 }
 
-}  // namespace sateen
+}  // namespace sateen::texture

@@ -7,7 +7,7 @@
 #include "sateen/core/image.h"
 #include "sateen/texture/lobe_chain.h"
 
-namespace sateen {
+namespace sateen::texture {
 
 /// A filtered chain in memory, as shaders sample it: level 0 first, row 0 on top, values in [0, 1].
 struct LobeMips {
@@ -24,4 +24,4 @@ LobeMips make_lobe_mips(LobeSource& source, const ChainOptions& options, Anisotr
 /// metadata. Throws Error naming the file that is none of these, or when sizes or levels differ.
 LobeMips read_lobe_mips(const std::filesystem::path& normals, const std::filesystem::path& anisotropy);
 
-}  // namespace sateen
+}  // namespace sateen::texture

@@ -13,7 +13,7 @@
 #include "sateen/texture/block_compression.h"
 #include "sateen/texture/lobe_files.h"
 
-namespace sateen {
+namespace sateen::texture {
 namespace {
 
 namespace fs = std::filesystem;
@@ -41,8 +41,8 @@ Channels channels_of(const LobeTexel& texel, const LobeOutput& output, bool sign
 /// be stored.
 class PictureLevel {
  public:
-  PictureLevel(const fs::path& file, const fs::path& name, int width, int height, RowSamples samples)
-      : writer_(file, name, width, height, 3, samples), floats_(samples == RowSamples::f16) {}
+  PictureLevel(const fs::path& file, const fs::path& name, int width, int height, io::RowSamples samples)
+      : writer_(file, name, width, height, 3, samples), floats_(samples == io::RowSamples::f16) {}
 
   /// Row y of three channels.
   void write(int y, std::span<const float> row) {
@@ -75,7 +75,7 @@ class PictureLevel {
     return static_cast<float>(v) / 65535;
   }
 
-  ImageRowWriter writer_;
+  io::ImageRowWriter writer_;
   bool floats_;
   int next_ = 0;
   std::map<int, std::vector<std::uint16_t>> waiting_;
@@ -84,9 +84,9 @@ class PictureLevel {
 /// `files` are in the order of `names`: both maps of level 0, then of level 1, ...
 class PictureSink : public LobeSink {
  public:
-  PictureSink(int width, int height, const LobeOutput& output, RowSamples samples,
+  PictureSink(int width, int height, const LobeOutput& output, io::RowSamples samples,
               std::span<const fs::path> files, std::span<const fs::path> names)
-      : output_(output), signed_normals_(samples == RowSamples::f16) {
+      : output_(output), signed_normals_(samples == io::RowSamples::f16) {
     for (std::size_t i = 0; i < files.size(); ++i) {
       const int level = static_cast<int>(i / 2);
       levels_.push_back(std::make_unique<PictureLevel>(files[i], names[i], std::max(width >> level, 1),
@@ -132,14 +132,14 @@ class KtxSink : public LobeSink {
  public:
   KtxSink(int width, int height, int levels, const LobeOutput& output) : output_(output) {
     const bool blocks = output.kind == LobeOutput::Kind::ktx2_blocks;
-    maps[0].format = blocks ? VkFormat::bc5_unorm : VkFormat::rg8_unorm;
-    maps[1].format = blocks ? VkFormat::bc7_unorm : VkFormat::rgba8_unorm;
-    for (Ktx2& map : maps) {
+    maps[0].format = blocks ? io::VkFormat::bc5_unorm : io::VkFormat::rg8_unorm;
+    maps[1].format = blocks ? io::VkFormat::bc7_unorm : io::VkFormat::rgba8_unorm;
+    for (io::Ktx2& map : maps) {
       map.width = static_cast<std::uint32_t>(width);
       map.height = static_cast<std::uint32_t>(height);
       map.levels.resize(static_cast<std::size_t>(levels));
       for (std::uint32_t level = 0; level < map.levels.size(); ++level) {
-        map.levels[level].resize(ktx2_level_bytes(map, level));
+        map.levels[level].resize(io::ktx2_level_bytes(map, level));
       }
     }
   }
@@ -172,7 +172,7 @@ class KtxSink : public LobeSink {
     }
   }
 
-  std::array<Ktx2, 2> maps;
+  std::array<io::Ktx2, 2> maps;
 
  private:
   /// Four rows of both maps, RGBA.
@@ -243,7 +243,7 @@ std::vector<fs::path> write_ktx(LobeSource& source, const fs::path& base, const 
                                 const LobeOutput& output, int levels, const Progress& progress) {
   KtxSink sink(source.width(), source.height(), levels, output);
   filter_lobe_chain(source, sink, chain, progress);
-  for (Ktx2& map : sink.maps) {
+  for (io::Ktx2& map : sink.maps) {
     map.metadata["KTXorientation"] = "rd";
     map.metadata["SateenFilter"] =
         name_of(chain.filter.method) + (chain.filter.isotropic ? " isotropic" : "");
@@ -251,16 +251,16 @@ std::vector<fs::path> write_ktx(LobeSource& source, const fs::path& base, const 
   sink.maps[0].metadata["SateenNormals"] = output.green_down ? "xy, green down" : "xy, green up";
   sink.maps[1].metadata["SateenAnisotropy"] = name_of(output.encoding);
   const std::vector<fs::path> paths{base.string() + "_normal.ktx2", base.string() + "_aniso.ktx2"};
-  for (std::size_t map = 0; map < 2; ++map) write_ktx2(paths[map], sink.maps[map], output.zstd_level);
+  for (std::size_t map = 0; map < 2; ++map) io::write_ktx2(paths[map], sink.maps[map], output.zstd_level);
   return paths;
 }
 
 std::vector<fs::path> write_pictures(LobeSource& source, const fs::path& base, const ChainOptions& chain,
                                      const LobeOutput& output, int levels, const Progress& progress) {
   const bool exr = output.kind == LobeOutput::Kind::exr;
-  const RowSamples samples = exr                                     ? RowSamples::f16
-                             : output.kind == LobeOutput::Kind::png8 ? RowSamples::u8
-                                                                     : RowSamples::u16;
+  const io::RowSamples samples = exr                                     ? io::RowSamples::f16
+                                 : output.kind == LobeOutput::Kind::png8 ? io::RowSamples::u8
+                                                                         : io::RowSamples::u16;
   const auto path_of = [&](const char* map, int level) {
     return fs::path(fmt::format("{}_{}_{}{}", base.string(), map, level, exr ? ".exr" : ".png"));
   };
@@ -269,7 +269,7 @@ std::vector<fs::path> write_pictures(LobeSource& source, const fs::path& base, c
     paths.push_back(path_of("normal", level));
     paths.push_back(path_of("aniso", level));
   }
-  write_atomically(paths, [&](std::span<const fs::path> files) {
+  io::write_atomically(paths, [&](std::span<const fs::path> files) {
     PictureSink sink(source.width(), source.height(), output, samples, files, paths);
     filter_lobe_chain(source, sink, chain, progress);
     sink.close();
@@ -290,4 +290,4 @@ std::vector<fs::path> write_lobe_chain(LobeSource& source, const fs::path& base,
              : write_pictures(source, stem, chain, output, levels, progress);
 }
 
-}  // namespace sateen
+}  // namespace sateen::texture

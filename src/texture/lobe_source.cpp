@@ -10,7 +10,7 @@
 #include "sateen/io/image_rows.h"
 #include "sateen/texture/lobe_files.h"
 
-namespace sateen {
+namespace sateen::texture {
 
 Vec3 decode_normal(std::span<const float> pixel, const NormalMapFormat& format, bool& repaired) {
   const auto component = [&](std::size_t c) {
@@ -39,8 +39,8 @@ Vec3 decode_normal(std::span<const float> pixel, const NormalMapFormat& format, 
 
 struct LobeFileSource::State {
   LobeMapFiles files;
-  std::optional<ImageRowReader> normals;
-  std::optional<ImageRowReader> lobes;
+  std::optional<io::ImageRowReader> normals;
+  std::optional<io::ImageRowReader> lobes;
   bool isotropic = false;
   int width = 0;
   int height = 0;
@@ -60,7 +60,7 @@ LobeFileSource::LobeFileSource(const LobeMapFiles& files) : state_(std::make_uni
     s.lobes.emplace(files.roughness);
   }
   if (!s.normals && !s.lobes) throw Error("nothing to filter: give a normal map, an anisotropy map or both");
-  const ImageRowReader& first = s.normals ? *s.normals : *s.lobes;
+  const io::ImageRowReader& first = s.normals ? *s.normals : *s.lobes;
   s.width = first.width();
   s.height = first.height();
   if (s.lobes && (s.lobes->width() != s.width || s.lobes->height() != s.height)) {
@@ -95,7 +95,7 @@ std::size_t LobeFileSource::repaired() const {
 
 void LobeFileSource::read(std::span<LobeTexel> out) {
   State& s = *state_;
-  const auto load = [&](std::optional<ImageRowReader>& reader, std::vector<float>& rows) {
+  const auto load = [&](std::optional<io::ImageRowReader>& reader, std::vector<float>& rows) {
     if (!reader) return std::size_t{0};
     const auto channels = static_cast<std::size_t>(reader->channels());
     rows.resize(out.size() * channels);
@@ -104,7 +104,7 @@ void LobeFileSource::read(std::span<LobeTexel> out) {
   };
   const std::size_t normal_channels = load(s.normals, s.normal_rows);
   const std::size_t lobe_channels = load(s.lobes, s.lobe_rows);
-  const Mat2 constant = guarded(roughness_matrix(s.files.constant));
+  const Mat2 constant = guarded(brdf::roughness_matrix(s.files.constant));
   const std::size_t width = static_cast<std::size_t>(s.width);
   parallel_for(static_cast<int>(out.size() / width), [&](int row) {
     std::size_t repaired = 0;
@@ -122,7 +122,7 @@ void LobeFileSource::read(std::span<LobeTexel> out) {
         texel.s = constant;
       } else if (s.isotropic) {
         const double r = std::clamp(static_cast<double>(s.lobe_rows[i * lobe_channels]), 0.0, 1.0);
-        texel.s = guarded(roughness_matrix({r * r, r * r, 0}));
+        texel.s = guarded(brdf::roughness_matrix({r * r, r * r, 0}));
       } else {
         const float* c = s.lobe_rows.data() + i * lobe_channels;
         texel.s = guarded(decode_anisotropy({c[0], c[1], c[2]}, s.files.encoding));
@@ -132,4 +132,4 @@ void LobeFileSource::read(std::span<LobeTexel> out) {
   });
 }
 
-}  // namespace sateen
+}  // namespace sateen::texture

@@ -10,7 +10,7 @@
 #include "sateen/core/parallel.h"
 #include "sateen/core/picture_texture.h"
 
-namespace sateen {
+namespace sateen::texture {
 namespace {
 
 constexpr double kLowestView = 1e-3;  // as layered.cpp lifts views behind the rim
@@ -56,24 +56,25 @@ GgxAlbedoTable::GgxAlbedoTable() : table_(kCosines * kAlphas, kAzimuths * kRatio
     const double azimuth = std::acos(part(y % kAzimuths, kAzimuths));
     for (int x = 0; x < table_.width; ++x) {
       const double root = part(x / kCosines, kAlphas);
-      const double alpha = std::max(root * root, kMinimumAlpha);
+      const double alpha = std::max(root * root, brdf::kMinimumAlpha);
       const double high = part(x % kCosines, kCosines);
       const double cosine = std::max(high * high, kLowestView);
       const double sine = std::sqrt(1 - cosine * cosine);
-      const GgxAlbedo albedo = ggx_albedo({alpha, std::max(alpha * ratio * ratio, kMinimumAlpha), 0},
-                                          {sine * std::cos(azimuth), sine * std::sin(azimuth), cosine}, 20);
+      const brdf::GgxAlbedo albedo =
+          brdf::ggx_albedo({alpha, std::max(alpha * ratio * ratio, brdf::kMinimumAlpha), 0},
+                           {sine * std::cos(azimuth), sine * std::sin(azimuth), cosine}, 20);
       table_.at(x, y, 0) = static_cast<float>(albedo.scale);
       table_.at(x, y, 1) = static_cast<float>(albedo.bias);
     }
   });
 }
 
-GgxAlbedo GgxAlbedoTable::operator()(double alpha_t, double alpha_b, const Vec3& view) const {
+brdf::GgxAlbedo GgxAlbedoTable::operator()(double alpha_t, double alpha_b, const Vec3& view) const {
   const double along = std::abs(view.x()) / std::max(view.head<2>().norm(), 1e-6);
   const Vec2 tile(std::sqrt(alpha_t) * (kAlphas - 1), std::sqrt(alpha_b / alpha_t) * (kRatios - 1));
   const int left = std::min(static_cast<int>(tile.x()), kAlphas - 2);
   const int top = std::min(static_cast<int>(tile.y()), kRatios - 2);
-  GgxAlbedo sum;
+  brdf::GgxAlbedo sum;
   for (int j = 0; j < 2; ++j) {
     for (int i = 0; i < 2; ++i) {
       std::array<double, 2> read{};
@@ -99,13 +100,13 @@ std::shared_ptr<const TextureData> GgxAlbedoTable::texture() const {
   return texture;
 }
 
-MappedAppearance::MappedAppearance(Maps maps, std::unique_ptr<LayeredAppearance> base)
+MappedAppearance::MappedAppearance(Maps maps, std::unique_ptr<brdf::LayeredAppearance> base)
     : maps_(std::move(maps)), base_(std::move(base)) {
   round_to_halves(maps_.mips.normals);
   round_to_halves(maps_.mips.anisotropy);
 }
 
-Vec3 MappedAppearance::evaluate(const Surface& surface) const {
+Vec3 MappedAppearance::evaluate(const appearance::Surface& surface) const {
   const Vec2 uv = surface.uv.cwiseProduct(maps_.repeat);
   std::array<double, 2> xy{};
   std::array<double, 3> channels{};
@@ -115,41 +116,41 @@ Vec3 MappedAppearance::evaluate(const Surface& surface) const {
   n.z() = std::sqrt(std::max(1 - n.squaredNorm(), 0.0));
   n.x() *= surface.side;  // from behind, bumps are dents
   n.y() *= maps_.mips.green_down ? -surface.side : surface.side;
-  const AnisotropicRoughness lobe =
-      roughness_from_matrix(decode_anisotropy({channels[0], channels[1], channels[2]}, maps_.mips.encoding));
+  const brdf::AnisotropicRoughness lobe = brdf::roughness_from_matrix(
+      decode_anisotropy({channels[0], channels[1], channels[2]}, maps_.mips.encoding));
 
   Mat3 surface_frame;
   surface_frame << surface.tangent, surface.bitangent_sign * surface.normal.cross(surface.tangent),
       surface.normal;
   const Mat3 turned = surface_frame * normal_frame(n);
-  Surface mapped = surface;
+  appearance::Surface mapped = surface;
   mapped.normal = turned.col(2);
   mapped.tangent = turned.col(0);
   Vec3 sum = base_->evaluate(mapped);
 
   const Mat3 frame = turned * Eigen::AngleAxisd(lobe.azimuth, Vec3::UnitZ()).toRotationMatrix();
-  const AnisotropicRoughness roughness{lobe.alpha_t, lobe.alpha_b, 0};
+  const brdf::AnisotropicRoughness roughness{lobe.alpha_t, lobe.alpha_b, 0};
   Vec3 view = frame.transpose() * surface.view;
   if (view.z() < kLowestView) view = Vec3(view.x(), view.y(), kLowestView).normalized();
-  const Lighting& lighting = base_->lighting();
-  for (const PunctualLight& lamp : lighting.lights) {
-    const ArrivingLight arriving = arriving_light(lamp, surface.position);
+  const brdf::Lighting& lighting = base_->lighting();
+  for (const light::PunctualLight& lamp : lighting.lights) {
+    const light::ArrivingLight arriving = light::arriving_light(lamp, surface.position);
     const Vec3 light = frame.transpose() * arriving.direction;
     if (light.z() > 0) {
-      sum += arriving.irradiance.cwiseProduct(ggx_brdf(roughness, maps_.f0, light, view)) * light.z();
+      sum += arriving.irradiance.cwiseProduct(brdf::ggx_brdf(roughness, maps_.f0, light, view)) * light.z();
     }
   }
   if (!lighting.environment) return sum;
-  const Vec3 seen = ggx_surroundings(*lighting.environment, lobe, frame, view, maps_.lobe_samples);
-  const GgxAlbedo albedo = albedo_(lobe.alpha_t, lobe.alpha_b, view);
+  const Vec3 seen = brdf::ggx_surroundings(*lighting.environment, lobe, frame, view, maps_.lobe_samples);
+  const brdf::GgxAlbedo albedo = albedo_(lobe.alpha_t, lobe.alpha_b, view);
   return sum + surface.occlusion * seen.cwiseProduct(maps_.f0 * albedo.scale + Vec3::Constant(albedo.bias));
 }
 
-ShaderBinding MappedAppearance::shader() const {
-  ShaderBinding binding = base_->shader();
+appearance::ShaderBinding MappedAppearance::shader() const {
+  appearance::ShaderBinding binding = base_->shader();
   binding.files.emplace_back("mapped.glsl");
   binding.function = "mapped";
-  const auto set = [&](const char* name, UniformValue value) {
+  const auto set = [&](const char* name, appearance::UniformValue value) {
     binding.uniforms.push_back({name, std::move(value)});
   };
   set("mapped_root", maps_.mips.encoding == AnisotropyEncoding::root ? 1 : 0);
@@ -163,4 +164,4 @@ ShaderBinding MappedAppearance::shader() const {
   return binding;
 }
 
-}  // namespace sateen
+}  // namespace sateen::texture

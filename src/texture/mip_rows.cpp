@@ -11,7 +11,7 @@
 #include "sateen/core/error.h"
 #include "sateen/core/parallel.h"
 
-namespace sateen {
+namespace sateen::texture {
 namespace {
 
 int wrapped(int i, int size, MipWrap wrap) {
@@ -185,4 +185,4 @@ std::vector<MipRowFilter::Row> MipRowFilter::push(const std::vector<Row>& rows) 
   return ready;
 }
 
-}  // namespace sateen
+}  // namespace sateen::texture

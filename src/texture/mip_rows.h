@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace sateen {
+namespace sateen::texture {
 
 /// The kernel that halves a level.
 enum class MipKernel {
@@ -67,4 +67,4 @@ class MipRowFilter {
   std::vector<std::vector<float>> narrow_;  ///< input rows already filtered across, while they are needed
 };
 
-}  // namespace sateen
+}  // namespace sateen::texture

@@ -13,7 +13,7 @@
 #include "support/analytic_material.h"
 #include "support/files.h"
 
-namespace sateen {
+namespace sateen::amc {
 namespace {
 
 using testing::HasSubstr;
@@ -57,26 +57,26 @@ TEST(AmcFile, TheSameTableGivesTheSameBytes) {
   const test::TemporaryFolder folder;
   write_amc(folder / "a.ktx2", sample(AmcEncoding::half));
   write_amc(folder / "b.ktx2", sample(AmcEncoding::half));
-  EXPECT_EQ(read_bytes(folder / "a.ktx2"), read_bytes(folder / "b.ktx2"));
+  EXPECT_EQ(io::read_bytes(folder / "a.ktx2"), io::read_bytes(folder / "b.ktx2"));
 }
 
 TEST(AmcFile, RefusesWhatIsNoAmc) {
   const test::TemporaryFolder folder;
   const auto path = folder / "x.ktx2";
   write_amc(path, sample(AmcEncoding::half));
-  const Ktx2 good = read_ktx2(path);
+  const io::Ktx2 good = io::read_ktx2(path);
   const auto refused = [&](auto change, const std::string& message) {
-    Ktx2 bad = good;
+    io::Ktx2 bad = good;
     change(bad);
-    write_ktx2(path, bad);
+    io::write_ktx2(path, bad);
     EXPECT_THAT([&] { read_amc(path); }, ThrowsMessage<Error>(HasSubstr(message)));
   };
-  refused([](Ktx2& t) { t.metadata.erase("sateen.kind"); }, "no Anisotropic MatCap");
-  refused([](Ktx2& t) { t.metadata["sateen.version"] = "99"; }, "version 99");
-  refused([](Ktx2& t) { t.metadata["sateen.symmetry"] = "two"; }, "'two'");
-  refused([](Ktx2& t) { t.metadata["sateen.symmetry"] = "0"; }, "symmetry");
+  refused([](io::Ktx2& t) { t.metadata.erase("sateen.kind"); }, "no Anisotropic MatCap");
+  refused([](io::Ktx2& t) { t.metadata["sateen.version"] = "99"; }, "version 99");
+  refused([](io::Ktx2& t) { t.metadata["sateen.symmetry"] = "two"; }, "'two'");
+  refused([](io::Ktx2& t) { t.metadata["sateen.symmetry"] = "0"; }, "symmetry");
   refused(
-      [](Ktx2& t) {
+      [](io::Ktx2& t) {
         const Half nan = std::numeric_limits<Half>::quiet_NaN();
         std::memcpy(t.levels[0].data() + 8, &nan, sizeof nan);
       },
@@ -87,4 +87,4 @@ TEST(AmcFile, RefusesWhatIsNoAmc) {
 }
 
 }  // namespace
-}  // namespace sateen
+}  // namespace sateen::amc

@@ -11,7 +11,7 @@
 #include "support/analytic_material.h"
 #include "support/files.h"
 
-namespace sateen {
+namespace sateen::amc {
 namespace {
 
 using test::analytic_colour;
@@ -41,9 +41,9 @@ std::vector<std::filesystem::path> write_frames(const test::TemporaryFolder& fol
   std::vector<std::filesystem::path> files;
   for (int i = 0; i < count; ++i) {
     files.push_back(folder / fmt::format("frame_{}.exr", i));
-    write_image(files.back(), test::photograph(24, [&](const Vec3& n) {
-                  return analytic_colour(n, first_angle + i * step, 1);
-                }));
+    io::write_image(files.back(), test::photograph(24, [&](const Vec3& n) {
+                      return analytic_colour(n, first_angle + i * step, 1);
+                    }));
   }
   return files;
 }
@@ -87,7 +87,7 @@ TEST(BuildAmc, ACropFindsTheSphereInALargerPicture) {
       for (int x = 0; x < 24; ++x) picture.set_rgb(x + 9, y + 4, sphere.rgb(x, y));
     }
     files.push_back(folder / fmt::format("{}.exr", i));
-    write_image(files.back(), picture);
+    io::write_image(files.back(), picture);
   }
   LoadFramesOptions options;
   options.size = 24;
@@ -130,9 +130,9 @@ TEST(BuildAmc, FramesOfOtherSizesAndTooFewFramesAreRefused) {
   LoadFramesOptions options;
   EXPECT_THROW(load_frames({}, options), Error);
   EXPECT_THROW(load_frames(std::span(files).first(1), options), Error);
-  write_image(files[3], Image(30, 30, 3, 0.5f));
+  io::write_image(files[3], Image(30, 30, 3, 0.5f));
   EXPECT_THAT([&] { load_frames(files, options); }, testing::ThrowsMessage<Error>(HasSubstr("frame_3.exr")));
 }
 
 }  // namespace
-}  // namespace sateen
+}  // namespace sateen::amc

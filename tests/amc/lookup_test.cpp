@@ -8,7 +8,7 @@
 #include "sateen/amc/appearance.h"
 #include "support/analytic_material.h"
 
-namespace sateen {
+namespace sateen::amc {
 namespace {
 
 using test::analytic_colour;
@@ -63,7 +63,7 @@ TEST(AmcLookup, TakesTheTangentsDirectionInThePicturePlane) {
 
 TEST(AmcLookup, TheAppearanceMultipliesByOcclusion) {
   const AmcAppearance appearance(analytic_table(16, 8, 2));
-  Surface surface;
+  appearance::Surface surface;
   surface.eye_normal = Vec3(0.1, 0.2, 0.9).normalized();
   surface.tangent_angle = 0.3;
   const Vec3 open = appearance.evaluate(surface);
@@ -93,4 +93,4 @@ TEST(AmcTable, TheIsotropicAverageIsTheMeanOverAllAngles) {
 }
 
 }  // namespace
-}  // namespace sateen
+}  // namespace sateen::amc

@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-namespace sateen {
+namespace sateen::amc {
 namespace {
 
 std::vector<double> even_angles(int count, double first = 0) {
@@ -87,4 +87,4 @@ TEST(Resample, DenseFramesAreAveragedSoThatNoiseFallsAndNothingAliases) {
 }
 
 }  // namespace
-}  // namespace sateen
+}  // namespace sateen::amc

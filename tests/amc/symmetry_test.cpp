@@ -8,7 +8,7 @@
 #include "sateen/core/error.h"
 #include "support/analytic_material.h"
 
-namespace sateen {
+namespace sateen::amc {
 namespace {
 
 using test::analytic_frames;
@@ -66,4 +66,4 @@ TEST(Symmetry, BlackFramesAreAnError) {
 }
 
 }  // namespace
-}  // namespace sateen
+}  // namespace sateen::amc

@@ -57,9 +57,9 @@ TEST(AmcCommand, FullResolutionSlicesEqualTheFramesTheyCameFrom) {
   const std::string slices = (folder / "slices").string();
   ASSERT_EQ(run_program(fmt::format("amc build {} -o {} --slices 64", kSilk, slices)).exit_code, 0);
   for (const int f : {0, 17, 40}) {
-    const Image slice = read_image(fmt::format("{}/slice_{:03}.png", slices, f));
-    const Image a = read_image(fmt::format("{}/frame_{:03}.png", kSilk, f));
-    const Image b = read_image(fmt::format("{}/frame_{:03}.png", kSilk, f + 64));
+    const Image slice = io::read_image(fmt::format("{}/slice_{:03}.png", slices, f));
+    const Image a = io::read_image(fmt::format("{}/frame_{:03}.png", kSilk, f));
+    const Image b = io::read_image(fmt::format("{}/frame_{:03}.png", kSilk, f + 64));
     for (int y = 0; y < 128; ++y) {
       for (int x = 0; x < 128; ++x) {
         if (!inside_disc(x, y, 128)) continue;
@@ -77,7 +77,7 @@ TEST(AmcCommand, ConvertsToAFolderAndBackWithoutLoss) {
       run_program(fmt::format("amc build {} -o {}/a.ktx2 --size 32 --slices 16", kSilk, root)).exit_code, 0);
   ASSERT_EQ(run_program(fmt::format("amc convert {0}/a.ktx2 -o {0}/slices", root)).exit_code, 0);
   ASSERT_EQ(run_program(fmt::format("amc convert {0}/slices -o {0}/b.ktx2", root)).exit_code, 0);
-  EXPECT_EQ(read_bytes(folder / "a.ktx2"), read_bytes(folder / "b.ktx2"));
+  EXPECT_EQ(io::read_bytes(folder / "a.ktx2"), io::read_bytes(folder / "b.ktx2"));
 }
 
 TEST(AmcCommand, TheThreadCountDoesNotChangeTheBytes) {
@@ -88,7 +88,7 @@ TEST(AmcCommand, TheThreadCountDoesNotChangeTheBytes) {
                   .exit_code,
               0);
   }
-  EXPECT_EQ(read_bytes(folder / "1.ktx2"), read_bytes(folder / "2.ktx2"));
+  EXPECT_EQ(io::read_bytes(folder / "1.ktx2"), io::read_bytes(folder / "2.ktx2"));
 }
 
 TEST(AmcCommand, DrawsTheSheetAndTheIsotropicMatCap) {
@@ -97,9 +97,9 @@ TEST(AmcCommand, DrawsTheSheetAndTheIsotropicMatCap) {
   ASSERT_EQ(
       run_program(fmt::format("amc build {} -o {}/a.ktx2 --size 64 --slices 32", kSilk, root)).exit_code, 0);
   EXPECT_EQ(run_program(fmt::format("amc slices {0}/a.ktx2 -o {0}/sheet.png", root)).exit_code, 0);
-  EXPECT_GT(read_image(folder / "sheet.png").width, 900);
+  EXPECT_GT(io::read_image(folder / "sheet.png").width, 900);
   EXPECT_EQ(run_program(fmt::format("amc isotropic {0}/a.ktx2 -o {0}/matcap.exr", root)).exit_code, 0);
-  EXPECT_EQ(read_image(folder / "matcap.exr").width, 64);
+  EXPECT_EQ(io::read_image(folder / "matcap.exr").width, 64);
 }
 
 TEST(AmcCommand, NoFramesAndOneFrameAreRefused) {
@@ -136,7 +136,7 @@ TEST(AmcCommand, ANaNInAFrameIsNamed) {
   for (int i = 0; i < 6; ++i) {
     Image image(16, 16, 3, 0.5f);
     if (i == 4) image.at(7, 9, 1) = std::numeric_limits<float>::quiet_NaN();
-    write_image(frames / fmt::format("{}.exr", i), image);
+    io::write_image(frames / fmt::format("{}.exr", i), image);
   }
   const auto result =
       run_program(fmt::format("amc build {} -o {}/x.ktx2", frames.string(), folder.path().string()));
@@ -150,8 +150,8 @@ TEST(AmcCommand, TruncatedAndLyingFilesAreRefused) {
   const auto path = folder / "x.ktx2";
   ASSERT_EQ(
       run_program(fmt::format("amc build {} -o {} --size 16 --slices 8", kSilk, path.string())).exit_code, 0);
-  auto bytes = read_bytes(path);
-  write_bytes(folder / "short.ktx2", std::span(bytes).first(bytes.size() * 2 / 3));
+  auto bytes = io::read_bytes(path);
+  io::write_bytes(folder / "short.ktx2", std::span(bytes).first(bytes.size() * 2 / 3));
   const auto truncated = run_program(fmt::format("amc info {}/short.ktx2", folder.path().string()));
   EXPECT_EQ(truncated.exit_code, 1);
   EXPECT_THAT(truncated.output, HasSubstr("short.ktx2"));
@@ -160,7 +160,7 @@ TEST(AmcCommand, TruncatedAndLyingFilesAreRefused) {
     bytes[at] = std::byte{0};
     bytes[at + 1] = std::byte{static_cast<unsigned char>(at == 20 ? 0x40 : 0x20)};
   }
-  write_bytes(folder / "huge.ktx2", bytes);
+  io::write_bytes(folder / "huge.ktx2", bytes);
   EXPECT_EQ(run_program(fmt::format("amc info {}/huge.ktx2", folder.path().string())).exit_code, 1);
 }
 

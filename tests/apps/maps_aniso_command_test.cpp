@@ -36,13 +36,13 @@ TEST(MapsAniso, HelpExamplesRun) {
   EXPECT_EQ(
       run_program("maps aniso decode " + here + "/aniso.png --style blender -o " + here + "/rar.png").output,
       "");
-  const Ktx2 normal = read_ktx2(folder / "weave_normal.ktx2");
-  const Ktx2 aniso = read_ktx2(folder / "weave_aniso.ktx2");
+  const io::Ktx2 normal = io::read_ktx2(folder / "weave_normal.ktx2");
+  const io::Ktx2 aniso = io::read_ktx2(folder / "weave_aniso.ktx2");
   EXPECT_EQ(normal.levels.size(), 9u);
-  EXPECT_EQ(normal.format, VkFormat::bc5_unorm);
-  EXPECT_EQ(aniso.format, VkFormat::bc7_unorm);
+  EXPECT_EQ(normal.format, io::VkFormat::bc5_unorm);
+  EXPECT_EQ(aniso.format, io::VkFormat::bc7_unorm);
   EXPECT_EQ(aniso.metadata.at("SateenFilter"), "sggx-variance");
-  const Image decoded = read_data(folder / "rar.png");
+  const Image decoded = io::read_data(folder / "rar.png");
   EXPECT_NEAR(decoded.at(0, 0, 2), 30.0 / 360, 1e-3);
 }
 
@@ -65,8 +65,8 @@ TEST(MapsAniso, TheSameBytesWithAnyNumberOfThreads) {
   ASSERT_EQ(run_program(command + (folder / "one.ktx2").string() + " --threads 1").exit_code, 0);
   ASSERT_EQ(run_program(command + (folder / "all.ktx2").string()).exit_code, 0);
   for (const char* map : {"_normal.ktx2", "_aniso.ktx2"}) {
-    EXPECT_EQ(read_ktx2(folder / (std::string("one") + map)).levels,
-              read_ktx2(folder / (std::string("all") + map)).levels);
+    EXPECT_EQ(io::read_ktx2(folder / (std::string("one") + map)).levels,
+              io::read_ktx2(folder / (std::string("all") + map)).levels);
   }
 }
 
@@ -86,7 +86,7 @@ TEST(MapsAniso, WrongCommandLinesExitWithTwo) {
 
 TEST(MapsAniso, WrongInputsExitWithOneAndNameTheFile) {
   const test::TemporaryFolder folder;
-  write_data(folder / "small.png", Image(8, 8, 3, 0.5f));
+  io::write_data(folder / "small.png", Image(8, 8, 3, 0.5f));
   const std::string out = " -o " + (folder / "a.png").string();
   const auto fails = [&](const std::string& arguments, const std::string& text) {
     const auto result = run_program("maps aniso " + arguments);
@@ -105,12 +105,12 @@ TEST(MapsAniso, WrongInputsExitWithOneAndNameTheFile) {
 
 TEST(MapsAniso, MendsBlackNormalsWithAWarning) {
   const test::TemporaryFolder folder;
-  write_data(folder / "black.png", Image(8, 8, 3));
+  io::write_data(folder / "black.png", Image(8, 8, 3));
   const auto result = run_program("maps aniso filter --normals " + (folder / "black.png").string() +
                                   " --constant 0.5 -o " + (folder / "a.png").string());
   EXPECT_EQ(result.exit_code, 0);
   EXPECT_THAT(result.output, HasSubstr("64 normals"));
-  const Image normal = read_data(folder / "a_normal_0.png");
+  const Image normal = io::read_data(folder / "a_normal_0.png");
   EXPECT_NEAR(normal.at(3, 3, 2), 1, 1e-4);
 }
 
@@ -123,13 +123,13 @@ Image level_1_of(const fs::path& normals, const test::TemporaryFolder& folder) {
   const auto result = run_program("maps aniso filter --normals " + normals.string() + " --constant 0.5 -o " +
                                   (folder / "out.png").string());
   EXPECT_EQ(result.exit_code, 0) << result.output;
-  return read_data(folder / "out_normal_1.png");
+  return io::read_data(folder / "out_normal_1.png");
 }
 
 TEST(MapsAniso, SizesThatAreNotSquareNorPowersOfTwo) {
   for (const auto& [w, h] : {std::pair{37, 11}, std::pair{300, 7}, std::pair{1, 9}, std::pair{64, 1}}) {
     const test::TemporaryFolder folder;
-    write_data(folder / "n.png", Image(w, h, 3, 0.5f));
+    io::write_data(folder / "n.png", Image(w, h, 3, 0.5f));
     for (const char* name : {"a.png", "a.ktx2"}) {
       const auto result = run_program("maps aniso filter --normals " + (folder / "n.png").string() +
                                       " --constant 0.5 0.2 --kernel kaiser -o " + (folder / name).string());
@@ -137,7 +137,7 @@ TEST(MapsAniso, SizesThatAreNotSquareNorPowersOfTwo) {
     }
     int levels = 1;
     for (int size = std::max(w, h); size > 1; size /= 2) ++levels;
-    EXPECT_EQ(read_ktx2(folder / "a_aniso.ktx2").levels.size(), static_cast<std::size_t>(levels));
+    EXPECT_EQ(io::read_ktx2(folder / "a_aniso.ktx2").levels.size(), static_cast<std::size_t>(levels));
     EXPECT_TRUE(fs::exists(folder / ("a_normal_" + std::to_string(levels - 1) + ".png")));
   }
 }
@@ -155,7 +155,7 @@ TEST(MapsAniso, SixteenBitsAndAMissingBlueChannelAreRead) {
     }
     // PNG has no two-channel colour that every tool reads alike; EXR does.
     const fs::path file = folder / (kind == 1 ? "n.exr" : "n.png");
-    write_data(file, image);
+    io::write_data(file, image);
     const Image level = level_1_of(file, folder);
     for (int c = 0; c < 3; ++c) EXPECT_NEAR(level.at(1, 2, c), n[c] / 2 + 0.5f, 3e-5f) << kind;
   }
@@ -165,7 +165,7 @@ TEST(MapsAniso, RoughnessZeroAndOneAreLobes) {
   const test::TemporaryFolder folder;
   Image rough(8, 8, 1);
   for (int i = 0; i < 64; ++i) rough.at(i % 8, i / 8, 0) = i % 8 < 4 ? 0.0f : 1.0f;
-  write_data(folder / "r.png", rough);
+  io::write_data(folder / "r.png", rough);
   ASSERT_EQ(run_program("maps aniso filter --roughness " + (folder / "r.png").string() + " -o " +
                         (folder / "a.exr").string())
                 .exit_code,
@@ -174,7 +174,7 @@ TEST(MapsAniso, RoughnessZeroAndOneAreLobes) {
                         (folder / "d.exr").string())
                 .exit_code,
             0);
-  const Image alphas = read_data(folder / "d.exr");
+  const Image alphas = io::read_data(folder / "d.exr");
   EXPECT_NEAR(alphas.at(1, 1, 0), 1e-3, 1e-5);
   EXPECT_NEAR(alphas.at(6, 6, 0), 1, 1e-3);
   for (const float v : alphas.data) EXPECT_TRUE(std::isfinite(v));
@@ -184,11 +184,11 @@ TEST(MapsAniso, DamagedFilesAreNamedAndNothingIsLeft) {
   const test::TemporaryFolder folder;
   Image bad(64, 64, 3, 0.5f);
   bad.at(5, 40, 1) = std::numeric_limits<float>::quiet_NaN();
-  write_data(folder / "nan.exr", bad);
+  io::write_data(folder / "nan.exr", bad);
   Image noise(64, 64, 3);
   for (std::size_t i = 0; i < noise.data.size(); ++i)
     noise.data[i] = static_cast<float>(i * 7919 % 251) / 251;
-  write_data(folder / "cut.png", noise);
+  io::write_data(folder / "cut.png", noise);
   fs::resize_file(folder / "cut.png", fs::file_size(folder / "cut.png") / 2);
   std::ofstream(folder / "empty.png");
   const std::size_t before = files_in(folder.path());

@@ -20,7 +20,7 @@ using testing::HasSubstr;
 std::string written(const test::TemporaryFolder& folder, const std::string& name,
                     const std::string& extension = ".exr") {
   const auto path = folder / (name + extension);
-  write_image(path, test::example_matcap(name, 96));
+  io::write_image(path, test::example_matcap(name, 96));
   return path.string();
 }
 
@@ -36,7 +36,8 @@ TEST(MatcapCommand, DecomposeInfoAndBakeGiveTheInputBack) {
   EXPECT_EQ(info["provenance"]["source"], "lead.png");
   const std::string baked = (folder / "baked.png").string();
   ASSERT_EQ(run_program(fmt::format("matcap bake {} -o {}", matcap, baked)).exit_code, 0);
-  EXPECT_GT(psnr_on_disc(read_image(baked), read_image(input), inscribed_disc(96, 96)), 50);
+  EXPECT_GT(
+      matcap::psnr_on_disc(io::read_image(baked), io::read_image(input), matcap::inscribed_disc(96, 96)), 50);
 }
 
 TEST(MatcapCommand, BakesEditsLayersAndEnvironments) {
@@ -44,7 +45,7 @@ TEST(MatcapCommand, BakesEditsLayersAndEnvironments) {
   const std::string matcap = (folder / "jade.ktx2").string();
   ASSERT_EQ(run_program(fmt::format("matcap decompose {} -o {}", written(folder, "jade"), matcap)).exit_code,
             0);
-  write_text(folder / "edits.json", R"([{"edit": "intensity", "part": "high", "factor": 0}])");
+  io::write_text(folder / "edits.json", R"([{"edit": "intensity", "part": "high", "factor": 0}])");
   const auto path = [&](const char* name) { return (folder / name).string(); };
   const auto ok = [&](const std::string& options) {
     const auto result = run_program(fmt::format("matcap bake {} {}", matcap, options));
@@ -52,11 +53,11 @@ TEST(MatcapCommand, BakesEditsLayersAndEnvironments) {
     EXPECT_EQ(result.output, "");
   };
   ok("--edits " + path("edits.json") + " --turn 0,30,0 --size 50 -o " + path("turned.exr"));
-  EXPECT_EQ(read_image(folder / "turned.exr").width, 50);
+  EXPECT_EQ(io::read_image(folder / "turned.exr").width, 50);
   ok("--layers -o " + path("layers.exr"));
-  EXPECT_EQ(read_image_info(folder / "layers.exr").channels, 6);
+  EXPECT_EQ(io::read_image_info(folder / "layers.exr").channels, 6);
   ok("--environment high --environment-height 32 -o " + path("env.hdr"));
-  EXPECT_EQ(read_image(folder / "env.hdr").width, 64);
+  EXPECT_EQ(io::read_image(folder / "env.hdr").width, 64);
   EXPECT_EQ(run_program(fmt::format("matcap bake {} --layers -o {}", matcap, path("x.png"))).exit_code, 2);
   EXPECT_EQ(
       run_program(fmt::format("matcap bake {} --edits {} -o {}", matcap, path("none.json"), path("x.png")))
@@ -73,9 +74,9 @@ TEST(MatcapCommand, SeparateAddsUpAndEstimateReports) {
                                     path("h.exr")))
                 .exit_code,
             0);
-  const Image low = read_data(path("l.exr"));
-  const Image high = read_data(path("h.exr"));
-  const Image whole = read_image(input);
+  const Image low = io::read_data(path("l.exr"));
+  const Image high = io::read_data(path("h.exr"));
+  const Image whole = io::read_image(input);
   for (int c = 0; c < 3; ++c) EXPECT_FLOAT_EQ(low.at(40, 30, c) + high.at(40, 30, c), whole.at(40, 30, c));
   const auto estimate =
       run_program(fmt::format("matcap estimate {} --json --plot {} --roi 60,20,6,6", input, path("s.svg")));
@@ -83,7 +84,7 @@ TEST(MatcapCommand, SeparateAddsUpAndEstimateReports) {
   const json report = json::parse(estimate.output);
   EXPECT_EQ(report["high"]["automatic"], false);
   EXPECT_GT(report["high"]["signature"].size(), 10U);
-  EXPECT_THAT(read_text(path("s.svg")), HasSubstr("</svg>"));
+  EXPECT_THAT(io::read_text(path("s.svg")), HasSubstr("</svg>"));
   EXPECT_EQ(run_program(fmt::format("matcap estimate {} --roi 60,20,6", input)).exit_code, 2);
   EXPECT_EQ(run_program(fmt::format("matcap estimate {} --roi 0,0,1,1", input)).exit_code, 1);
 }
@@ -91,10 +92,10 @@ TEST(MatcapCommand, SeparateAddsUpAndEstimateReports) {
 TEST(MatcapCommand, BadPicturesAreNamedAndTheOthersOfAFolderDone) {
   const test::TemporaryFolder folder;
   std::filesystem::create_directory(folder / "in");
-  write_image(folder / "in" / "good.png", test::example_matcap("jade", 48));
-  write_image(folder / "in" / "pixel.png", Image(1, 1, 3, 0.5F));
-  write_image(folder / "in" / "wide.png", Image(64, 32, 3, 0.5F));
-  write_text(folder / "in" / "torn.png", "\x89PNG\r\n");
+  io::write_image(folder / "in" / "good.png", test::example_matcap("jade", 48));
+  io::write_image(folder / "in" / "pixel.png", Image(1, 1, 3, 0.5F));
+  io::write_image(folder / "in" / "wide.png", Image(64, 32, 3, 0.5F));
+  io::write_text(folder / "in" / "torn.png", "\x89PNG\r\n");
   const auto result = run_program(
       fmt::format("matcap decompose {} -o {}", (folder / "in").string(), (folder / "out").string()));
   EXPECT_EQ(result.exit_code, 1);
@@ -135,13 +136,13 @@ void expect_on_each_verb(const std::filesystem::path& picture, int exit_code, co
 TEST(MatcapCommand, BadPicturesAreRefusedByEachVerbWithAReason) {
   const test::TemporaryFolder folder;
   const auto data = test::source_dir() / "tests" / "data";
-  write_image(folder / "pixel.png", Image(1, 1, 3, 0.5F));
-  write_image(folder / "wide.png", Image(48, 32, 3, 0.5F));
+  io::write_image(folder / "pixel.png", Image(1, 1, 3, 0.5F));
+  io::write_image(folder / "wide.png", Image(48, 32, 3, 0.5F));
   Image nan(16, 16, 3, 0.5F);
   nan.at(3, 4, 1) = std::numeric_limits<float>::quiet_NaN();
-  write_data(folder / "nan.exr", nan);
-  write_image(folder / "whole.png", test::example_matcap("lead", 48));
-  write_text(folder / "torn.png", read_text(folder / "whole.png").substr(0, 700));
+  io::write_data(folder / "nan.exr", nan);
+  io::write_image(folder / "whole.png", test::example_matcap("lead", 48));
+  io::write_text(folder / "torn.png", io::read_text(folder / "whole.png").substr(0, 700));
   expect_on_each_verb(folder / "pixel.png", 1, "at least 2 are needed");
   expect_on_each_verb(folder / "wide.png", 1, "no sphere found");
   expect_on_each_verb(folder / "nan.exr", 1, "not finite");
@@ -153,7 +154,7 @@ TEST(MatcapCommand, BadPicturesAreRefusedByEachVerbWithAReason) {
 
 TEST(MatcapCommand, OddPicturesAreDoneByEachVerb) {
   const test::TemporaryFolder folder;
-  write_image(folder / "black.png", Image(32, 32, 3, 0));
+  io::write_image(folder / "black.png", Image(32, 32, 3, 0));
   expect_on_each_verb(folder / "black.png", 0, "");
   // A sphere smaller than its picture, before a plain background and cut out by alpha.
   const Image lead = test::example_matcap("lead", 48);
@@ -167,8 +168,8 @@ TEST(MatcapCommand, OddPicturesAreDoneByEachVerb) {
       alpha.at(20 + x, 10 + y, 3) = 1;
     }
   }
-  write_image(folder / "plain.png", plain);
-  write_image(folder / "alpha.png", alpha);
+  io::write_image(folder / "plain.png", plain);
+  io::write_image(folder / "alpha.png", alpha);
   for (const char* name : {"plain.png", "alpha.png"}) {
     expect_on_each_verb(folder / name, 0, "");
     const std::string matcap = (folder / "o.ktx2").string();

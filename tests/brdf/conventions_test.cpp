@@ -6,7 +6,7 @@
 #include "brdf/random_directions.h"
 #include "sateen/brdf/fuzz_integrals.h"
 
-namespace sateen {
+namespace sateen::brdf {
 namespace {
 
 using test::random_in;
@@ -138,4 +138,4 @@ TEST(Conventions, SheenKeepsTheSpreadOfNormals) {
 }
 
 }  // namespace
-}  // namespace sateen
+}  // namespace sateen::brdf

@@ -19,7 +19,7 @@
 #include "sateen/core/error.h"
 #include "support/files.h"
 
-namespace sateen {
+namespace sateen::brdf {
 namespace {
 
 using testing::AllOf;
@@ -241,4 +241,4 @@ TEST(FuzzApproximations, ScatteredDownFitsReachTheirResidualsAndTheTableBeatsThe
 }
 
 }  // namespace
-}  // namespace sateen
+}  // namespace sateen::brdf

@@ -5,7 +5,7 @@
 
 #include "brdf/random_directions.h"
 
-namespace sateen {
+namespace sateen::brdf {
 namespace {
 
 using test::random_unit;
@@ -98,4 +98,4 @@ TEST(FibreDiffuse, MomentsAreTheIntegralsTheyName) {
 }
 
 }  // namespace
-}  // namespace sateen
+}  // namespace sateen::brdf

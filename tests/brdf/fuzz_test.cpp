@@ -8,7 +8,7 @@
 #include "sateen/brdf/fuzz_integrals.h"
 #include "sateen/brdf/quadrature.h"
 
-namespace sateen {
+namespace sateen::brdf {
 namespace {
 
 using test::random_in;
@@ -258,4 +258,4 @@ TEST(FuzzIntegrals, TheSlidesAmbientProductIsTooBrightForGatheredFibres) {
 }
 
 }  // namespace
-}  // namespace sateen
+}  // namespace sateen::brdf

@@ -6,7 +6,7 @@
 #include "brdf/chi_squared.h"
 #include "brdf/random_directions.h"
 
-namespace sateen {
+namespace sateen::brdf {
 namespace {
 
 using test::random_in;
@@ -155,4 +155,4 @@ TEST(Ggx, VisibleNormalSamplesFollowTheirDensity) {
 }
 
 }  // namespace
-}  // namespace sateen
+}  // namespace sateen::brdf

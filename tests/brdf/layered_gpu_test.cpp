@@ -2,11 +2,11 @@
 #include <gtest/gtest.h>
 
 #include "brdf/layered_materials.h"
-#include "sateen/brdf/layered.h"
+#include "sateen/brdf/layered/layered.h"
 #include "support/rendering.h"
 #include "support/shapes.h"
 
-namespace sateen {
+namespace sateen::brdf {
 namespace {
 
 using test::brushed;
@@ -81,10 +81,10 @@ TEST(LayeredOnGpu, FuzzWithSmoothedNormalsEqualsTheEvaluator) {
   material.specular = glossy().specular;
   for (const double smoothing : {0.0, 0.6, 1.0}) {
     material.fuzz_smoothing = smoothing;
-    Scene scene =
+    scene::Scene scene =
         test::scene_of(test::torus(), std::make_shared<const LayeredAppearance>(material, everything()));
     scene.materials[0].normal_map.texture = waves();
-    const Frame frame = test::render(scene, {});
+    const render::Picture frame = test::render(scene, {});
     const test::Difference difference = test::against_evaluator(frame, scene.materials, kTolerance);
     EXPECT_GT(difference.pixels, 1000);
     EXPECT_EQ(difference.failing, 0) << "smoothing " << smoothing << ": " << difference.largest;
@@ -109,4 +109,4 @@ TEST(LayeredOnGpu, SimpleFuzzEqualsTheEvaluator) {
 }
 
 }  // namespace
-}  // namespace sateen
+}  // namespace sateen::brdf

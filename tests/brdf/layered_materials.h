@@ -6,22 +6,22 @@
 #include <memory>
 #include <random>
 
-#include "sateen/brdf/layered.h"
+#include "sateen/brdf/layered/layered.h"
 #include "support/sky.h"
 
 namespace sateen::test {
 
-inline const Lighting& everything() {
-  static const Lighting shared = [] {
-    Lighting lighting;
-    PunctualLight key;
+inline const brdf::Lighting& everything() {
+  static const brdf::Lighting shared = [] {
+    brdf::Lighting lighting;
+    light::PunctualLight key;
     key.direction = Vec3(-0.4, 0.6, 0.7).normalized();
-    PunctualLight point;
-    point.kind = PunctualLight::Kind::point;
+    light::PunctualLight point;
+    point.kind = light::PunctualLight::Kind::point;
     point.position = {2, 0, -3};
     point.colour = {2, 3, 4};
-    PunctualLight spot = point;
-    spot.kind = PunctualLight::Kind::spot;
+    light::PunctualLight spot = point;
+    spot.kind = light::PunctualLight::Kind::spot;
     spot.position = {-1, 2, -2};
     spot.direction = Vec3(0.2, -0.4, -0.5).normalized();
     spot.inner_cone = 0.2;
@@ -33,16 +33,16 @@ inline const Lighting& everything() {
   return shared;
 }
 
-inline Lighting uniform_light() {
-  Lighting lighting;
+inline brdf::Lighting uniform_light() {
+  brdf::Lighting lighting;
   lighting.set_environment(Image(64, 32, 3, 1));
   return lighting;
 }
 
-inline LayeredMaterial fuzzy(FuzzPhase phase = FuzzPhase::sggx) {
-  LayeredMaterial material;
+inline brdf::LayeredMaterial fuzzy(brdf::FuzzPhase phase = brdf::FuzzPhase::sggx) {
+  brdf::LayeredMaterial material;
   material.base_colour = {0.3, 0.1, 0.1};
-  material.fuzz = FuzzParameters{};
+  material.fuzz = brdf::FuzzParameters{};
   material.fuzz->phase = phase;
   material.fuzz->alpha = 0.35;
   material.fuzz->k = 0.6;
@@ -52,21 +52,21 @@ inline LayeredMaterial fuzzy(FuzzPhase phase = FuzzPhase::sggx) {
   return material;
 }
 
-inline LayeredMaterial glossy() {
-  LayeredMaterial material;
-  material.specular = GgxParameters{{0.2, 0.6, radians(25)}, {0.9, 0.6, 0.3}, true};
+inline brdf::LayeredMaterial glossy() {
+  brdf::LayeredMaterial material;
+  material.specular = brdf::GgxParameters{{0.2, 0.6, radians(25)}, {0.9, 0.6, 0.3}, true};
   return material;
 }
 
 /// A surface point facing the viewer's z axis, seen from `view`.
-inline Surface flat(const Vec3& view) {
-  Surface surface;
+inline appearance::Surface flat(const Vec3& view) {
+  appearance::Surface surface;
   surface.view = view;
   return surface;
 }
 
 /// Brushed pile: tilts from nearly upright to lying, all azimuths, changing from texel to texel.
-inline FibreMap brushed() {
+inline brdf::FibreMap brushed() {
   std::mt19937 random(11);
   std::uniform_real_distribution<double> value(0, 1);
   auto picture = std::make_shared<Image>(5, 4, 3);

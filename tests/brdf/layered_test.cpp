@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "sateen/brdf/layered.h"
+#include "sateen/brdf/layered/layered.h"
 
 #include <algorithm>
 #include <array>
@@ -14,11 +14,11 @@
 #include "sateen/core/error.h"
 #include "sateen/io/image.h"
 #include "sateen/light/environment.h"
-#include "sateen/render/registry.h"
+#include "sateen/scene/registry.h"
 #include "support/files.h"
 #include "support/sky.h"
 
-namespace sateen {
+namespace sateen::brdf {
 namespace {
 
 using test::everything;
@@ -74,7 +74,7 @@ TEST(Layered, UprightFuzzHasNoDirection) {
   material.fuzz->tilt = 0;
   const LayeredAppearance upright(material, everything());
   for (int i = 0; i < 20; ++i) {
-    Surface surface = flat(random_up(random, 0.1));
+    appearance::Surface surface = flat(random_up(random, 0.1));
     const Vec3 expected = upright.evaluate(surface);
     surface.tangent = Vec3(std::cos(i), std::sin(i), 0);
     EXPECT_LT((upright.evaluate(surface) - expected).norm() / expected.norm(), 5e-3);
@@ -99,7 +99,7 @@ TEST(Layered, AMapOfOneFibreIsThatFibre) {
     material.fuzz_fibres = FibreMap{picture, {3, 2}};
     const LayeredAppearance map(material, everything());
     for (int i = 0; i < 20; ++i) {
-      Surface surface = flat(random_up(random, 0.1));
+      appearance::Surface surface = flat(random_up(random, 0.1));
       surface.uv = {0.3 * i, 0.7};
       const Vec3 expected = one.evaluate(surface);
       worst = std::max(worst, (map.evaluate(surface) - expected).norm() / expected.norm());
@@ -139,18 +139,18 @@ TEST(Layered, SmoothingTurnsTheFuzzTowardsTheMeshsNormalAndLeavesTheBase) {
   material.base_colour = Vec3::Zero();
   LayeredMaterial smooth = material;
   smooth.fuzz_smoothing = 1;
-  Surface bumpy = flat(Vec3(0.2, -0.3, 0.9).normalized());
+  appearance::Surface bumpy = flat(Vec3(0.2, -0.3, 0.9).normalized());
   bumpy.normal = Vec3(0.3, 0.1, 0.9).normalized();
   bumpy.tangent = (Vec3::UnitX() - bumpy.normal * bumpy.normal.x()).normalized();
-  const Surface plain = flat(bumpy.view);
-  const auto look = [](const LayeredMaterial& m, const Surface& s) {
+  const appearance::Surface plain = flat(bumpy.view);
+  const auto look = [](const LayeredMaterial& m, const appearance::Surface& s) {
     return LayeredAppearance(m, everything()).evaluate(s);
   };
   // The tangent of the bumpy surface, brought back, is the plain one's up to a turn that a fibre along it
   // sees.
   const Vec3 back = (bumpy.tangent - Vec3::UnitZ() * bumpy.tangent.z()).normalized();
   ASSERT_LT((back - plain.tangent).norm(), 0.05);
-  Surface turned = plain;
+  appearance::Surface turned = plain;
   turned.tangent = back;
   EXPECT_LT((look(smooth, bumpy) - look(material, turned)).norm(), 1e-9);
   EXPECT_GT((look(material, bumpy) - look(material, turned)).norm(), 0.01);
@@ -182,7 +182,7 @@ TEST(Layered, SurroundingsAreCloseToTheIntegralOfTheBrdf) {
   Image bands = light;
   for (int y = 0; y < bands.height; ++y) {
     for (int x = 0; x < bands.width; ++x) {
-      const Vec3 d = environment_direction({(x + 0.5) / bands.width, (y + 0.5) / bands.height});
+      const Vec3 d = light::environment_direction({(x + 0.5) / bands.width, (y + 0.5) / bands.height});
       bands.set_rgb(x, y, lighting.harmonics.radiance(d).cast<float>());
     }
   }
@@ -334,7 +334,7 @@ TEST(Layered, AnisotropyStaysVisibleInAmbientLightAlone) {
     const LayeredAppearance appearance(material, uniform_light());
     std::array<double, 3> radiance{};
     for (std::size_t i = 0; i < 3; ++i) {
-      Surface surface = flat(v);
+      appearance::Surface surface = flat(v);
       surface.tangent = tangents[i];
       radiance[i] = appearance.evaluate(surface).x();
     }
@@ -358,7 +358,7 @@ TEST(Layered, NoFuzzIsTheBaseAlone) {
   LayeredMaterial thin = bare;
   thin.fuzz = FuzzParameters{};
   thin.fuzz->density = 0;
-  const Surface surface = flat(Vec3(0.3, 0.2, 0.8).normalized());
+  const appearance::Surface surface = flat(Vec3(0.3, 0.2, 0.8).normalized());
   EXPECT_LT((LayeredAppearance(bare, everything()).evaluate(surface) -
              LayeredAppearance(thin, everything()).evaluate(surface))
                 .norm(),
@@ -368,7 +368,7 @@ TEST(Layered, NoFuzzIsTheBaseAlone) {
 TEST(Layered, MaterialFilesAreReadAndWrongOnesNamed) {
   for (const auto& entry : std::filesystem::directory_iterator(test::examples() / "materials")) {
     if (entry.path().extension() != ".json") continue;
-    const auto appearance = load_appearance(entry.path());
+    const auto appearance = scene::load_appearance(entry.path());
     EXPECT_TRUE(appearance->evaluate(flat(Vec3::UnitZ())).allFinite()) << entry.path();
     EXPECT_TRUE(appearance->set_environment(Image(16, 8, 3, 1)));
   }
@@ -376,7 +376,7 @@ TEST(Layered, MaterialFilesAreReadAndWrongOnesNamed) {
   const auto message = [&](const std::string& text) -> std::string {
     std::ofstream(folder / "m.json") << text;
     try {
-      load_appearance(folder / "m.json");
+      scene::load_appearance(folder / "m.json");
     } catch (const Error& error) {
       return error.what();
     }
@@ -385,7 +385,7 @@ TEST(Layered, MaterialFilesAreReadAndWrongOnesNamed) {
   EXPECT_THAT(message(R"({"model": "layered", "fuzz": {"density": -1}})"),
               testing::AllOf(testing::HasSubstr("m.json, fuzz"), testing::HasSubstr("\"density\""),
                              testing::HasSubstr("-1")));
-  write_data(folder / "grey.png", Image(4, 4, 1, 0.5f));
+  io::write_data(folder / "grey.png", Image(4, 4, 1, 0.5f));
   EXPECT_THAT(message(R"({"model": "layered", "fuzz": {"fibres": "grey.png"}})"),
               testing::HasSubstr("grey.png: a map of fibres has two channels or more"));
   EXPECT_THAT(message(R"({"model": "layered", "fuzz": {"fibres": "grey.png", "tilt": 3}})"),
@@ -399,4 +399,4 @@ TEST(Layered, MaterialFilesAreReadAndWrongOnesNamed) {
 }
 
 }  // namespace
-}  // namespace sateen
+}  // namespace sateen::brdf

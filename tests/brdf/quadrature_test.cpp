@@ -7,7 +7,7 @@
 
 #include "brdf/random_directions.h"
 
-namespace sateen {
+namespace sateen::brdf {
 namespace {
 
 TEST(Quadrature, KnownIntegralsOfOneVariable) {
@@ -44,4 +44,4 @@ TEST(Quadrature, HemisphereAboutAnyAxis) {
 }
 
 }  // namespace
-}  // namespace sateen
+}  // namespace sateen::brdf

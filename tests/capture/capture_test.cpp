@@ -16,7 +16,7 @@
 #include "sateen/io/image.h"
 #include "support/files.h"
 
-namespace sateen {
+namespace sateen::capture {
 namespace {
 
 using test::capture_of;
@@ -147,7 +147,7 @@ TEST(Capture, APaintedMaskIsTrackedThroughTheTurn) {
     }
   }
   const TemporaryFolder other;
-  write_image(other / "mask.png", paint);
+  io::write_image(other / "mask.png", paint);
   CaptureOptions options = small_options(s);
   options.find_blemishes = false;
   const CaptureResult without = build_capture({folder.path()}, options);
@@ -198,11 +198,11 @@ TEST(Capture, AVideoGivesTheTableOfItsPictures) {
   EXPECT_GT(test::table_psnr(result.table, s, result.seen), 35);
 
   // An index that promises frames the file no longer has.
-  auto bytes = read_bytes(folder / "turn.avi");
+  auto bytes = io::read_bytes(folder / "turn.avi");
   bytes.resize(bytes.size() / 4);
-  write_bytes(folder / "cut.avi", bytes);
+  io::write_bytes(folder / "cut.avi", bytes);
   EXPECT_THROW(build_capture({folder / "cut.avi"}, small_options(s)), Error);
-  write_text(folder / "none.mp4", "no video at all");
+  io::write_text(folder / "none.mp4", "no video at all");
   EXPECT_THROW(build_capture({folder / "none.mp4"}, small_options(s)), Error);
 }
 
@@ -255,14 +255,14 @@ TEST(CaptureComplaints, FilesThatAreWrong) {
   s.frames = 14;
   const TemporaryFolder folder;
   s.write(folder.path());
-  auto bytes = read_bytes(folder / "frame_003.png");
+  auto bytes = io::read_bytes(folder / "frame_003.png");
   bytes.resize(bytes.size() / 2);
-  write_bytes(folder / "frame_003.png", bytes);
+  io::write_bytes(folder / "frame_003.png", bytes);
   EXPECT_THROW(build_capture({folder.path()}, small_options(s)), Error);
-  write_image(folder / "frame_003.png", Image(40, 30, 3, 0.5f));
+  io::write_image(folder / "frame_003.png", Image(40, 30, 3, 0.5f));
   EXPECT_THROW(build_capture({folder.path()}, small_options(s)), Error);
   EXPECT_THROW(build_capture({folder / "missing"}, small_options(s)), Error);
 }
 
 }  // namespace
-}  // namespace sateen
+}  // namespace sateen::capture

@@ -13,7 +13,7 @@
 #include "sateen/io/file.h"
 #include "support/files.h"
 
-namespace sateen {
+namespace sateen::capture {
 namespace {
 
 using test::run_program;
@@ -26,7 +26,7 @@ std::string lens_and_size(const Simulation& s) {
 }
 
 nlohmann::json report_in(const std::filesystem::path& folder) {
-  return nlohmann::json::parse(read_text(folder / "report.json"));
+  return nlohmann::json::parse(io::read_text(folder / "report.json"));
 }
 
 TEST(CaptureCommand, ALiveCaptureGoesOnAfterAnInterruptionAndMakesTheTable) {
@@ -51,7 +51,7 @@ TEST(CaptureCommand, ALiveCaptureGoesOnAfterAnInterruptionAndMakesTheTable) {
   const auto resumed = shoot("after.avi");
   EXPECT_EQ(resumed.exit_code, 0) << resumed.output;
   EXPECT_THAT(resumed.output, HasSubstr("20 frames of an earlier capture were kept, 16 taken"));
-  EXPECT_GT(test::table_psnr(read_amc(folder / "cloth.ktx2"), s, {}), 34);
+  EXPECT_GT(test::table_psnr(amc::read_amc(folder / "cloth.ktx2"), s, {}), 34);
   const auto report = report_in(folder / "report");
   ASSERT_EQ(report["frames"].size(), 36);
   EXPECT_EQ(report["frames"][35]["file"], "frame_035.png");
@@ -66,7 +66,7 @@ TEST(CaptureCommand, AHandIsToldHowFarToTurn) {
   const Simulation s = test::small_simulation();
   const test::TemporaryFolder folder;
   test::write_video(s, folder / "turn.avi", 0, 12);
-  write_text(folder / "keys", std::string(12, '\n'));
+  io::write_text(folder / "keys", std::string(12, '\n'));
   const std::string command =
       fmt::format("capture live --camera {} --frames 12 --stage manual --folder {} < {}",
                   (folder / "turn.avi").string(), (folder / "shots").string(), (folder / "keys").string());
@@ -84,4 +84,4 @@ TEST(CaptureCommand, TellsOfAStageThatIsNone) {
 }
 
 }  // namespace
-}  // namespace sateen
+}  // namespace sateen::capture

@@ -11,7 +11,7 @@
 #include "sateen/capture/focal_estimate.h"
 #include "sateen/core/direction.h"
 
-namespace sateen {
+namespace sateen::capture {
 namespace {
 
 using testing::Contains;
@@ -105,4 +105,4 @@ TEST(CaptureFocal, EffectIsThatOfNormalsMetByRays) {
 }
 
 }  // namespace
-}  // namespace sateen
+}  // namespace sateen::capture

@@ -14,7 +14,7 @@
 #include "sateen/io/file.h"
 #include "support/files.h"
 
-namespace sateen {
+namespace sateen::capture {
 namespace {
 
 Camera bent_camera() {
@@ -41,7 +41,7 @@ TEST(CaptureCamera, KeepsItsNumbersInAFile) {
   EXPECT_EQ(camera.width, 800);
   EXPECT_EQ(camera.distortion, bent_camera().distortion);
   EXPECT_EQ(camera.principal, bent_camera().principal);
-  write_text(folder / "bad.json", "{\"width\": 3}");
+  io::write_text(folder / "bad.json", "{\"width\": 3}");
   EXPECT_THROW(read_camera(folder / "bad.json"), Error);
   EXPECT_THROW(read_camera(folder / "none.json"), Error);
 }
@@ -118,13 +118,13 @@ TEST(CaptureBracket, MergesWhatEachExposureCanSee) {
   const std::vector<double> times{0.01, 0.08};
   Image light(3, 1, 3);
   for (int x = 0; x < 3; ++x) light.set_rgb(x, 0, Vec3f::Constant(x == 0 ? 0.02f : x == 1 ? 0.6f : 4.0f));
-  std::vector<Frame> group;
+  std::vector<Photograph> group;
   for (const double time : times) {
     Image shot = light;
     for (float& v : shot.data) v = std::min(1.0f, v * static_cast<float>(time / 0.08));
     group.emplace_back(shot, 0.995f);
   }
-  const Frame merged = merge_brackets(group, times);
+  const Photograph merged = merge_brackets(group, times);
   for (int x = 0; x < 3; ++x) EXPECT_NEAR(merged.rgb(x, 0)[0] / light.at(x, 0, 0), 1, 1e-3);
   EXPECT_FALSE(merged.clipped(2, 0));
   EXPECT_TRUE(group[1].clipped(2, 0));
@@ -147,7 +147,7 @@ TEST(CaptureMirrorBall, FindsTheLampWhereItIs) {
       picture.set_rgb(x, y, Vec3f::Constant(static_cast<float>(0.6 * std::exp(-off * off / 0.02))));
     }
   }
-  const Image map = mirror_ball_environment(Frame(picture, 10), camera, ball, 256, 0.6);
+  const Image map = mirror_ball_environment(Photograph(picture, 10), camera, ball, 256, 0.6);
   Vec3 sum(0, 0, 0);
   float brightest = 0;
   for (int y = 0; y < map.height; ++y) {
@@ -198,4 +198,4 @@ TEST(CaptureCalibration, RecoversTheLens) {
 }
 
 }  // namespace
-}  // namespace sateen
+}  // namespace sateen::capture

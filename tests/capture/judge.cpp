@@ -10,7 +10,7 @@
 namespace sateen::test {
 namespace {
 
-void judge_seam(const CaptureResult& result, const Simulation& truth, CaptureErrors& errors) {
+void judge_seam(const capture::CaptureResult& result, const Simulation& truth, CaptureErrors& errors) {
   double hit = 0;
   double missed = 0;
   double wrong = 0;
@@ -35,13 +35,13 @@ void judge_seam(const CaptureResult& result, const Simulation& truth, CaptureErr
 
 }  // namespace
 
-CaptureErrors judge(const CaptureResult& result, const Simulation& truth) {
+CaptureErrors judge(const capture::CaptureResult& result, const Simulation& truth) {
   CaptureErrors errors;
   double offset = 0;
   double gain = 0;
   double n = 0;
   for (int i = 0; i < truth.frames; ++i) {
-    const CaptureFrame& frame = result.frames[static_cast<std::size_t>(i)];
+    const capture::CaptureFrame& frame = result.frames[static_cast<std::size_t>(i)];
     if (!frame.dropped.empty()) continue;
     offset += std::remainder(frame.turned - truth.angle(i), 2 * kPi);
     gain += std::log(frame.gain.y() / truth.gain(i).y());
@@ -50,7 +50,7 @@ CaptureErrors judge(const CaptureResult& result, const Simulation& truth) {
   offset /= n;
   gain /= n;
   for (int i = 0; i < truth.frames; ++i) {
-    const CaptureFrame& frame = result.frames[static_cast<std::size_t>(i)];
+    const capture::CaptureFrame& frame = result.frames[static_cast<std::size_t>(i)];
     if (!frame.dropped.empty()) continue;
     errors.centre += (frame.centre - truth.sphere_of(i).centre_pixel(truth.camera())).squaredNorm() / n;
     errors.angle += std::pow(degrees(std::remainder(frame.turned - truth.angle(i) - offset, 2 * kPi)), 2) / n;
@@ -66,8 +66,8 @@ CaptureErrors judge(const CaptureResult& result, const Simulation& truth) {
   return errors;
 }
 
-CaptureOptions informed_options(const Simulation& truth, bool lens) {
-  CaptureOptions options;
+capture::CaptureOptions informed_options(const Simulation& truth, bool lens) {
+  capture::CaptureOptions options;
   options.size = 64;
   options.slices = 48;
   if (lens) options.fov = 2 * std::atan(truth.width / 2.0 / truth.focal);
@@ -76,17 +76,17 @@ CaptureOptions informed_options(const Simulation& truth, bool lens) {
   return options;
 }
 
-CaptureOptions small_options(const Simulation& truth) {
-  CaptureOptions options = informed_options(truth);
+capture::CaptureOptions small_options(const Simulation& truth) {
+  capture::CaptureOptions options = informed_options(truth);
   options.size = 48;
   options.slices = 24;
   return options;
 }
 
-CaptureResult capture_of(const Simulation& simulation, const CaptureOptions& options) {
+capture::CaptureResult capture_of(const Simulation& simulation, const capture::CaptureOptions& options) {
   const TemporaryFolder folder;
   simulation.write(folder.path());
-  return build_capture({folder.path()}, options);
+  return capture::build_capture({folder.path()}, options);
 }
 
 }  // namespace sateen::test

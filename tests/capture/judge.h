@@ -17,15 +17,15 @@ struct CaptureErrors {
   double seam_recall = 0;  // of the seam's texels inside 0.95 of the disc
   double seam_precision = 0;
 };
-CaptureErrors judge(const CaptureResult& result, const Simulation& truth);
+CaptureErrors judge(const capture::CaptureResult& result, const Simulation& truth);
 
 /// Options under which the simulation's first angle is known and, if `lens`, its focal length.
-CaptureOptions informed_options(const Simulation& truth, bool lens = true);
+capture::CaptureOptions informed_options(const Simulation& truth, bool lens = true);
 
 /// The same for a table of 48 x 48 x 24, which small_simulation is sharp enough for.
-CaptureOptions small_options(const Simulation& truth);
+capture::CaptureOptions small_options(const Simulation& truth);
 
 /// The capture of the simulation's pictures.
-CaptureResult capture_of(const Simulation& simulation, const CaptureOptions& options);
+capture::CaptureResult capture_of(const Simulation& simulation, const capture::CaptureOptions& options);
 
 }  // namespace sateen::test

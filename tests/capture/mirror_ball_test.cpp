@@ -13,7 +13,7 @@
 #include "sateen/io/image.h"
 #include "support/files.h"
 
-namespace sateen {
+namespace sateen::capture {
 namespace {
 
 using test::run_program;
@@ -54,7 +54,7 @@ void write_ball(const Simulation& s, const SphereView& ball, const std::filesyst
       light.set_rgb(x, y, sum.cast<float>());
     }
   }
-  write_image(path, light);
+  io::write_image(path, light);
 }
 
 TEST(CaptureMirrorBallCommand, WritesTheRoomBesideTheTable) {
@@ -72,7 +72,7 @@ TEST(CaptureMirrorBallCommand, WritesTheRoomBesideTheTable) {
       degrees(2 * std::atan(s.width / 2.0 / s.focal)), (folder / "chrome.jpg").string(), kReflectance));
   ASSERT_EQ(result.exit_code, 0) << result.output;
 
-  const Image map = read_image(folder / "cloth.light.exr");
+  const Image map = io::read_image(folder / "cloth.light.exr");
   double squares = 0;
   double count = 0;
   double worst_behind = 0;
@@ -108,7 +108,7 @@ TEST(CaptureMirrorBall, APictureWithoutABallIsRefused) {
   const auto complaint = [&](const Image& picture) -> std::string {
     CaptureOptions options;
     options.mirror_ball = folder / "picture.png";
-    write_image(options.mirror_ball, picture);
+    io::write_image(options.mirror_ball, picture);
     try {
       mirror_ball_shot(options, look, s.camera());
     } catch (const Error& error) {
@@ -122,4 +122,4 @@ TEST(CaptureMirrorBall, APictureWithoutABallIsRefused) {
 }
 
 }  // namespace
-}  // namespace sateen
+}  // namespace sateen::capture

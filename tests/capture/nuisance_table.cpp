@@ -24,7 +24,7 @@ void row(const char* name, const std::function<void(test::Simulation&, bool& len
   bool lens = true;
   change(s, lens);
   try {
-    const CaptureResult result = test::capture_of(s, test::informed_options(s, lens));
+    const capture::CaptureResult result = test::capture_of(s, test::informed_options(s, lens));
     const test::CaptureErrors errors = test::judge(result, s);
     fmt::print("| {} | {:.3f} | {:.3f} | {:.3f} | {:.3f} | {:.1f} |", name, errors.centre, errors.radius,
                errors.axis, errors.angle, errors.table);

@@ -20,7 +20,7 @@
 #include "sateen/io/image.h"
 #include "support/files.h"
 
-namespace sateen {
+namespace sateen::capture {
 namespace {
 
 using test::Simulation;
@@ -41,11 +41,11 @@ TEST(CapturePhotographs, BracketedExposuresKeepTheHighlights) {
     const auto file = [&](const TemporaryFolder& folder, int shot) {
       return folder / fmt::format("shot_{:03}.jpg", shot);
     };
-    write_image(file(both, 2 * i), longer);
-    write_image(file(both, 2 * i + 1), light);
+    io::write_image(file(both, 2 * i), longer);
+    io::write_image(file(both, 2 * i + 1), light);
     test::put_exif(file(both, 2 * i), test::exposure_time_exif(3, 100));
     test::put_exif(file(both, 2 * i + 1), test::exposure_time_exif(1, 100));
-    write_image(file(long_only, i), longer);
+    io::write_image(file(long_only, i), longer);
   }
   const CaptureOptions options = test::small_options(dark);
   const CaptureResult merged = build_capture({both.path()}, options);
@@ -68,7 +68,7 @@ TEST(CapturePhotographs, FlickerWithinAFrameIsTold) {
       const auto lamp = static_cast<float>(1 + 0.08 * std::sin(2.4 * i + 2 * kPi * y / light.height));
       for (int x = 0; x < light.width; ++x) light.set_rgb(x, y, lamp * light.rgb(x, y));
     }
-    write_image(folder / fmt::format("shot_{:03}.jpg", i), light);
+    io::write_image(folder / fmt::format("shot_{:03}.jpg", i), light);
   }
   const CaptureResult result = build_capture({folder.path()}, test::small_options(s));
   EXPECT_THAT(result.warnings, testing::Contains(testing::HasSubstr("flicker")));
@@ -91,7 +91,7 @@ TEST(CapturePhotographs, UnreadableExifIsAsGoodAsNone) {
                                         test::exposure_time_exif(1, 0)};
   for (int i = 0; i < s.frames; ++i) {
     const auto file = folder / fmt::format("shot_{:03}.jpg", i);
-    write_image(file, test::light_of(s.render(i)));
+    io::write_image(file, test::light_of(s.render(i)));
     test::put_exif(file, blocks[static_cast<std::size_t>(i) % blocks.size()]);
   }
   CaptureOptions options = test::small_options(s);
@@ -109,7 +109,7 @@ TEST(CapturePhotographs, LightBelowZeroIsDark) {
   for (int i = 0; i < s.frames; ++i) {
     Image light = test::light_of(s.render(i));
     for (float& v : light.data) v -= 0.12f;
-    write_image(folder / fmt::format("shot_{:03}.exr", i), light);
+    io::write_image(folder / fmt::format("shot_{:03}.exr", i), light);
   }
   const CaptureResult result = build_capture({folder.path()}, test::small_options(s));
   const auto brightest =
@@ -123,7 +123,7 @@ constexpr int kLarge = 4;
 std::string complaint_of_enlarged(const Simulation& s) {
   const TemporaryFolder folder;
   for (int i = 0; i < s.frames; ++i) {
-    Picture8 picture = s.render(i);
+    io::Picture8 picture = s.render(i);
     const cv::Mat pixels(picture.height, picture.width, CV_8UC3, picture.rgb.data());
     cv::Mat large;
     cv::resize(pixels, large, {}, kLarge, kLarge, cv::INTER_NEAREST);
@@ -175,4 +175,4 @@ TEST(CapturePhotographs, PlacesAreToldInTheirOwnPixels) {
 }
 
 }  // namespace
-}  // namespace sateen
+}  // namespace sateen::capture

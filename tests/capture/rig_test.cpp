@@ -15,7 +15,7 @@
 #include "sateen/io/file.h"
 #include "support/files.h"
 
-namespace sateen {
+namespace sateen::capture {
 namespace {
 
 using test::capture_of;
@@ -138,13 +138,13 @@ TEST(CaptureRig, ADamagedPhotographIsNamed) {
   s.frames = 14;
   const test::TemporaryFolder folder;
   for (int i = 0; i < s.frames; ++i) {
-    Picture8 picture = s.render(i);
+    io::Picture8 picture = s.render(i);
     cv::imwrite((folder / (fmt::format("f{}.jpg", 10 + i))).string(),
                 cv::Mat(s.height, s.width, CV_8UC3, picture.rgb.data()));
   }
-  auto bytes = read_bytes(folder / "f15.jpg");
+  auto bytes = io::read_bytes(folder / "f15.jpg");
   bytes.resize(bytes.size() / 2);
-  write_bytes(folder / "f15.jpg", bytes);
+  io::write_bytes(folder / "f15.jpg", bytes);
   try {
     build_capture({folder.path()}, informed_options(s));
     FAIL() << "took a damaged photograph";
@@ -154,4 +154,4 @@ TEST(CaptureRig, ADamagedPhotographIsNamed) {
 }
 
 }  // namespace
-}  // namespace sateen
+}  // namespace sateen::capture

@@ -12,7 +12,7 @@ namespace sateen::test {
 
 /// Puts an EXIF block (the bytes behind "Exif\0\0") into a JPEG file.
 inline void put_exif(const std::filesystem::path& jpeg, const std::string& block) {
-  const std::vector<std::byte> old = read_bytes(jpeg);
+  const std::vector<std::byte> old = io::read_bytes(jpeg);
   std::string segment("Exif\0\0", 6);
   segment += block;
   const std::size_t length = segment.size() + 2;
@@ -21,7 +21,7 @@ inline void put_exif(const std::filesystem::path& jpeg, const std::string& block
   bytes += static_cast<char>(length & 255);
   bytes += segment;
   for (std::size_t i = 2; i < old.size(); ++i) bytes += static_cast<char>(old[i]);
-  write_text(jpeg, bytes);
+  io::write_text(jpeg, bytes);
 }
 
 /// An EXIF block that holds an exposure time (seconds, as a rational number) and nothing else.

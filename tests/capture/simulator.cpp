@@ -67,7 +67,7 @@ Vec3 background(double x, double y) {
 }  // namespace
 
 Vec3 Simulation::axis() const {
-  const Vec3 to_eye = -sphere_at(camera(), centre, radius).centre.normalized();
+  const Vec3 to_eye = -capture::sphere_at(camera(), centre, radius).centre.normalized();
   const Mat3 to_view = eye_frame(to_eye).transpose();
   return to_view * Vec3(std::sin(radians(tilt.x())), std::sin(radians(tilt.y())), 1).normalized();
 }
@@ -79,8 +79,8 @@ double Simulation::angle(int frame) const {
   return (clockwise ? -1 : 1) * step * (frame + jitter);
 }
 
-SphereView Simulation::sphere_of(int frame) const {
-  const SphereView mean = sphere_at(camera(), centre, radius);
+capture::SphereView Simulation::sphere_of(int frame) const {
+  const capture::SphereView mean = capture::sphere_at(camera(), centre, radius);
   const Vec3 a = axis();
   // Across the axis: a pixel is 1 / radius of the sphere's radius.
   const Vec3 x = (Vec3::UnitX() - a * a.x()).normalized();
@@ -120,9 +120,9 @@ Vec3 Simulation::material(const Vec3& n, const Vec3& t) const {
   return grey ? Vec3(Vec3::Constant(light_out.y())) : light_out;
 }
 
-Picture8 Simulation::render(int frame) const {
-  const Camera lens = camera();
-  const SphereView ball = sphere_of(frame);
+io::Picture8 Simulation::render(int frame) const {
+  const capture::Camera lens = camera();
+  const capture::SphereView ball = sphere_of(frame);
   const Vec3 a = axis();
   const Eigen::AngleAxisd turned(angle(frame), a);
   const Mat3 to_body = turned.toRotationMatrix().transpose();
@@ -131,7 +131,8 @@ Picture8 Simulation::render(int frame) const {
   const double pole_angle = radians(first_angle + 90) + angle(frame);
   const Vec3 pole = std::cos(pole_angle) * x_axis + std::sin(pole_angle) * y_axis;
   const Vec2 move = frame * 2 >= frames ? camera_move : Vec2(0, 0);
-  const SphereView twin = sphere_at(lens, Vec2(centre.x() - 2.3 * radius, centre.y()), radius * 0.8);
+  const capture::SphereView twin =
+      capture::sphere_at(lens, Vec2(centre.x() - 2.3 * radius, centre.y()), radius * 0.8);
   const Vec2 seen_centre = ball.centre_pixel(lens);
   const Vec2 twin_centre = twin.centre_pixel(lens);
 
@@ -152,8 +153,8 @@ Picture8 Simulation::render(int frame) const {
     }
     const bool near_ball = sphere && (pixel - seen_centre).norm() < outer + 3;
     const bool near_twin = second_sphere && (pixel - twin_centre).norm() < radius;
-    if ((near_ball && normal_at_pixel(lens, ball, pixel, n)) ||
-        (near_twin && normal_at_pixel(lens, twin, pixel, n))) {
+    if ((near_ball && capture::normal_at_pixel(lens, ball, pixel, n)) ||
+        (near_twin && capture::normal_at_pixel(lens, twin, pixel, n))) {
       const Vec3 body = to_body * n;
       if (in_seam(body)) return {0.012, 0.012, 0.012};
       const Vec3 position = ball.centre + n;
@@ -233,7 +234,7 @@ Picture8 Simulation::render(int frame) const {
   std::minstd_rand random(seed * 1000003u + static_cast<std::uint32_t>(frame) + 1);
   const bool dark = std::ranges::find(black, frame) != black.end();
   const Vec3 exposed = dark ? Vec3(0, 0, 0) : gain(frame);
-  Picture8 picture;
+  io::Picture8 picture;
   picture.width = width;
   picture.height = height;
   for (int y = 0; y < height; ++y) {
@@ -252,7 +253,7 @@ Picture8 Simulation::render(int frame) const {
 
 void Simulation::write(const std::filesystem::path& folder) const {
   for (int i = 0; i < frames; ++i) {
-    Picture8 picture = render(i);
+    io::Picture8 picture = render(i);
     cv::Mat rgb(height, width, CV_8UC3, picture.rgb.data());
     cv::Mat bgr;
     if (grey) {
@@ -284,14 +285,14 @@ void write_video(const Simulation& s, const std::filesystem::path& path, int fir
   cv::VideoWriter writer(path.string(), cv::VideoWriter::fourcc('M', 'J', 'P', 'G'), 24, {s.width, s.height});
   writer.set(cv::VIDEOWRITER_PROP_QUALITY, 97);
   for (int i = first; i < end; ++i) {
-    Picture8 picture = s.render(i);
+    io::Picture8 picture = s.render(i);
     cv::Mat bgr;
     cv::cvtColor(cv::Mat(s.height, s.width, CV_8UC3, picture.rgb.data()), bgr, cv::COLOR_RGB2BGR);
     writer.write(bgr);
   }
 }
 
-void draw_chessboard(const std::filesystem::path& path, const Camera& camera, const Mat3& turned,
+void draw_chessboard(const std::filesystem::path& path, const capture::Camera& camera, const Mat3& turned,
                      const Vec3& moved, int columns, int rows) {
   cv::Mat image(camera.height, camera.width, CV_8U);
   constexpr int kFine = 2;
@@ -316,12 +317,13 @@ void draw_chessboard(const std::filesystem::path& path, const Camera& camera, co
   cv::imwrite(path.string(), image, {cv::IMWRITE_PNG_COMPRESSION, 1});
 }
 
-double table_psnr(const AmcTable& table, const Simulation& truth, const std::vector<std::uint8_t>& seen) {
+double table_psnr(const amc::AmcTable& table, const Simulation& truth,
+                  const std::vector<std::uint8_t>& seen) {
   double squares = 0;
   double count = 0;
   for (int f = 0; f < table.slices; f += 3) {
     const double k = 2 * kPi * table.slice_angle(f);
-    const Image slice = slice_image(table, f);
+    const Image slice = amc::slice_image(table, f);
     for (int y = 0; y < table.size; ++y) {
       for (int x = 0; x < table.size; ++x) {
         const Vec2 disc = disc_of_pixel(x, y, table.size);

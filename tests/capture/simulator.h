@@ -49,13 +49,13 @@ struct Simulation {
   int samples = 2;    // along each side of a pixel inside the sphere
   std::uint32_t seed = 7;
 
-  Camera camera() const { return Camera::pinhole(width, height, focal); }
+  capture::Camera camera() const { return capture::Camera::pinhole(width, height, focal); }
   Vec3 axis() const;
   double angle(int frame) const;  // radians turned since the first frame
-  SphereView sphere_of(int frame) const;
+  capture::SphereView sphere_of(int frame) const;
   Vec3 gain(int frame) const;
   bool in_seam(const Vec3& body) const;  // body normal at angle 0, view space
-  Picture8 render(int frame) const;
+  io::Picture8 render(int frame) const;
   /// Every frame as a PNG in `folder`.
   void write(const std::filesystem::path& folder) const;
 
@@ -72,10 +72,10 @@ void write_video(const Simulation& simulation, const std::filesystem::path& path
 
 /// A picture of a chessboard with `columns` x `rows` inner corners, squares of side 1, turned and then moved
 /// in view space.
-void draw_chessboard(const std::filesystem::path& path, const Camera& camera, const Mat3& turned,
+void draw_chessboard(const std::filesystem::path& path, const capture::Camera& camera, const Mat3& turned,
                      const Vec3& moved, int columns, int rows);
 
 /// Peak signal-to-noise ratio (dB, peak 1) of a table against the material inside 0.97 of the disc.
-double table_psnr(const AmcTable& table, const Simulation& truth, const std::vector<std::uint8_t>& seen);
+double table_psnr(const amc::AmcTable& table, const Simulation& truth, const std::vector<std::uint8_t>& seen);
 
 }  // namespace sateen::test

@@ -14,7 +14,7 @@
 #include "sateen/io/file.h"
 #include "support/files.h"
 
-namespace sateen {
+namespace sateen::capture {
 namespace {
 
 using std::chrono::milliseconds;
@@ -93,7 +93,7 @@ TEST(GrblStage, TellsWhenNothingOrNoneOfItsKindIsThere) {
 class CountingCamera final : public LiveCamera {
  public:
   explicit CountingCamera(int good) : good_(good) {}
-  Picture8 shoot() override {
+  io::Picture8 shoot() override {
     if (good_-- <= 0) throw Error("unplugged");
     return {4, 3, std::vector<std::uint8_t>(36, 100)};
   }
@@ -120,7 +120,7 @@ TEST(CaptureLive, ResumesWithoutLosingFrames) {
   EXPECT_EQ(stage_angles(options.folder), result.degrees);
   EXPECT_NEAR(grbl.position, 330, 1e-9);
   const std::vector<std::string> extensions{".png"};
-  EXPECT_EQ(expand_inputs({options.folder}, extensions).size(), 12);
+  EXPECT_EQ(io::expand_inputs({options.folder}, extensions).size(), 12);
   options.frames = 16;
   EXPECT_THROW(capture_live(*again, camera, options), Error);
 }
@@ -168,8 +168,8 @@ TEST(CaptureLive, AContinuousTurnIsShotInTime) {
 class GrowingCamera final : public LiveCamera {
  public:
   explicit GrowingCamera(int plain) : plain_(plain) {}
-  Picture8 shoot() override {
-    Picture8 picture{64, 48, std::vector<std::uint8_t>(64 * 48 * 3, 100)};
+  io::Picture8 shoot() override {
+    io::Picture8 picture{64, 48, std::vector<std::uint8_t>(64 * 48 * 3, 100)};
     if (plain_-- > 0) return picture;
     for (std::uint8_t& code : picture.rgb) code = static_cast<std::uint8_t>(random_());
     return picture;
@@ -193,7 +193,7 @@ TEST(CaptureLive, AFullDiskInTheMiddleLeavesOnlyWholeFramesAndIsResumed) {
                 testing::AllOf(testing::HasSubstr("frame_005.png"), testing::HasSubstr("same command")));
   }
   const std::vector<std::string> extensions{".png"};
-  EXPECT_EQ(expand_inputs({options.folder}, extensions).size(), 5);
+  EXPECT_EQ(io::expand_inputs({options.folder}, extensions).size(), 5);
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 6);  // and capture.json
   const LiveResult result = capture_live(*stage, camera, options);
   EXPECT_EQ(result.found, 5);
@@ -206,4 +206,4 @@ TEST(LiveCamera, AVideoStandsInForOne) {
 }
 
 }  // namespace
-}  // namespace sateen
+}  // namespace sateen::capture

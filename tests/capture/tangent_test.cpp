@@ -13,7 +13,7 @@
 #include "sateen/io/image.h"
 #include "support/files.h"
 
-namespace sateen {
+namespace sateen::capture {
 namespace {
 
 using test::ProgramResult;
@@ -33,7 +33,7 @@ void write_woven(const Simulation& s, const std::filesystem::path& folder, doubl
       const double across = pole.dot(to_body * normal) * s.radius / 7;
       return Vec3::Constant(1 + depth * std::sin(2 * kPi * across));
     });
-    write_image(folder / fmt::format("frame_{:03}.jpg", i), light);
+    io::write_image(folder / fmt::format("frame_{:03}.jpg", i), light);
   }
 }
 
@@ -49,7 +49,7 @@ double first_angle(const std::filesystem::path& photographs, const Simulation& s
   const test::TemporaryFolder folder;
   const ProgramResult result = build(photographs, folder.path(), s, how);
   EXPECT_EQ(result.exit_code, 0) << result.output;
-  const auto report = nlohmann::json::parse(read_text(folder / "report.json"));
+  const auto report = nlohmann::json::parse(io::read_text(folder / "report.json"));
   return report["frames"][0]["angle_degrees"].get<double>();
 }
 
@@ -85,4 +85,4 @@ TEST(CaptureTangentCommand, TellsAWeaveFromGrain) {
 }
 
 }  // namespace
-}  // namespace sateen
+}  // namespace sateen::capture

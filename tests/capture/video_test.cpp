@@ -14,7 +14,7 @@
 #include "sateen/io/file.h"
 #include "support/files.h"
 
-namespace sateen {
+namespace sateen::capture {
 namespace {
 
 using test::Simulation;
@@ -22,11 +22,11 @@ using test::TemporaryFolder;
 
 /// Overwrites four bytes of the AVI's stream header, `offset` behind its start.
 void patch_stream_header(const std::filesystem::path& avi, std::size_t offset, std::uint32_t value) {
-  std::string bytes = read_text(avi);
+  std::string bytes = io::read_text(avi);
   const std::size_t at = bytes.find("strh");
   ASSERT_NE(at, std::string::npos);
   for (std::size_t i = 0; i < 4; ++i) bytes[at + 8 + offset + i] = static_cast<char>(value >> (8 * i) & 255);
-  write_text(avi, bytes);
+  io::write_text(avi, bytes);
 }
 
 constexpr std::size_t kScale = 20;
@@ -78,9 +78,9 @@ TEST(CaptureVideo, TellsOfAMissingIndex) {
     for (int i = 0; i < 40; ++i) writer.write(grey);
   }
   // An MP4 keeps its index at the end: a recording that broke off has none.
-  auto bytes = read_bytes(path);
+  auto bytes = io::read_bytes(path);
   bytes.resize(bytes.size() / 2);
-  write_bytes(path, bytes);
+  io::write_bytes(path, bytes);
   try {
     build_capture({path}, test::small_options(s));
     FAIL();
@@ -90,4 +90,4 @@ TEST(CaptureVideo, TellsOfAMissingIndex) {
 }
 
 }  // namespace
-}  // namespace sateen
+}  // namespace sateen::capture

@@ -5,7 +5,7 @@
 
 #include "support/meshes.h"
 
-namespace sateen {
+namespace sateen::geometry {
 namespace {
 
 using namespace test;
@@ -77,4 +77,4 @@ TEST(Curvature, IsZeroOnAPlaneAndForUnusedVertices) {
 }
 
 }  // namespace
-}  // namespace sateen
+}  // namespace sateen::geometry

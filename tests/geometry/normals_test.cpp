@@ -4,7 +4,7 @@
 #include "sateen/geometry/tangents.h"
 #include "support/meshes.h"
 
-namespace sateen {
+namespace sateen::geometry {
 namespace {
 
 using namespace test;
@@ -51,4 +51,4 @@ TEST(Normals, OfSheetsBackToBackAndOfUnusedVerticesAreUnit) {
 }
 
 }  // namespace
-}  // namespace sateen
+}  // namespace sateen::geometry

@@ -7,7 +7,7 @@
 #include "sateen/core/parallel.h"
 #include "support/meshes.h"
 
-namespace sateen {
+namespace sateen::geometry {
 namespace {
 
 using namespace test;
@@ -112,4 +112,4 @@ TEST(Occlusion, AskingForNoRaysIsAnError) {
 }
 
 }  // namespace
-}  // namespace sateen
+}  // namespace sateen::geometry

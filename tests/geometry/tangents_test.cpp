@@ -9,7 +9,7 @@
 #include "sateen/core/error.h"
 #include "support/meshes.h"
 
-namespace sateen {
+namespace sateen::geometry {
 namespace {
 
 using namespace test;
@@ -290,4 +290,4 @@ TEST(Tangents, TurnCounterClockwiseSeenFromOutside) {
 }
 
 }  // namespace
-}  // namespace sateen
+}  // namespace sateen::geometry

@@ -12,7 +12,7 @@
 #include "sateen/core/error.h"
 #include "support/files.h"
 
-namespace sateen {
+namespace sateen::io {
 namespace {
 
 namespace fs = std::filesystem;
@@ -179,4 +179,4 @@ TEST(File, ExtensionsAreLowerCase) {
 }
 
 }  // namespace
-}  // namespace sateen
+}  // namespace sateen::io

@@ -14,7 +14,7 @@
 #include "sateen/io/image.h"
 #include "support/files.h"
 
-namespace sateen {
+namespace sateen::io {
 namespace {
 
 namespace fs = std::filesystem;
@@ -204,4 +204,4 @@ TEST_F(ImageBadInput, PicturesThatCannotBeWrittenLeaveNothing) {
 }
 
 }  // namespace
-}  // namespace sateen
+}  // namespace sateen::io

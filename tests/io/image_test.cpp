@@ -11,7 +11,7 @@
 #include "sateen/io/file.h"
 #include "support/files.h"
 
-namespace sateen {
+namespace sateen::io {
 namespace {
 
 using test::TemporaryFolder;
@@ -223,4 +223,4 @@ TEST(ImageFile, ExtensionsThatCannotBeWrittenAreRefused) {
 }
 
 }  // namespace
-}  // namespace sateen
+}  // namespace sateen::io

@@ -11,7 +11,7 @@
 #include "sateen/io/ktx2.h"
 #include "support/files.h"
 
-namespace sateen {
+namespace sateen::io {
 namespace {
 
 using namespace test;
@@ -195,4 +195,4 @@ TEST_F(Ktx2BadInput, MissingFilesAndFoldersAreNamed) {
 }
 
 }  // namespace
-}  // namespace sateen
+}  // namespace sateen::io

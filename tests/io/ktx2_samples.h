@@ -11,22 +11,23 @@
 
 namespace sateen::test {
 
-inline constexpr VkFormat kAllFormats[]{
-    VkFormat::r8_unorm,      VkFormat::rg8_unorm,     VkFormat::rgba8_unorm,   VkFormat::rgba8_srgb,
-    VkFormat::rgba16_sfloat, VkFormat::rgba32_sfloat, VkFormat::bc1_rgb_unorm, VkFormat::bc3_unorm,
-    VkFormat::bc4_unorm,     VkFormat::bc5_unorm,     VkFormat::bc6h_ufloat,   VkFormat::bc7_unorm,
-    VkFormat::bc7_srgb,
+inline constexpr io::VkFormat kAllFormats[]{
+    io::VkFormat::r8_unorm,      io::VkFormat::rg8_unorm,     io::VkFormat::rgba8_unorm,
+    io::VkFormat::rgba8_srgb,    io::VkFormat::rgba16_sfloat, io::VkFormat::rgba32_sfloat,
+    io::VkFormat::bc1_rgb_unorm, io::VkFormat::bc3_unorm,     io::VkFormat::bc4_unorm,
+    io::VkFormat::bc5_unorm,     io::VkFormat::bc6h_ufloat,   io::VkFormat::bc7_unorm,
+    io::VkFormat::bc7_srgb,
 };
 
 /// A texture of noise whose bytes depend on `seed` alone; even bytes are 0 so that compression has something
 /// to do.
-inline Ktx2 noise_texture(VkFormat format, std::uint32_t width, std::uint32_t height, std::uint32_t depth = 0,
-                          std::uint32_t levels = 1, std::uint32_t layers = 0, std::uint32_t faces = 1,
-                          unsigned seed = 1) {
-  Ktx2 texture{format, width, height, depth, layers, faces, {}, {}};
+inline io::Ktx2 noise_texture(io::VkFormat format, std::uint32_t width, std::uint32_t height,
+                              std::uint32_t depth = 0, std::uint32_t levels = 1, std::uint32_t layers = 0,
+                              std::uint32_t faces = 1, unsigned seed = 1) {
+  io::Ktx2 texture{format, width, height, depth, layers, faces, {}, {}};
   std::mt19937 random(seed);
   for (std::uint32_t i = 0; i < levels; ++i) {
-    std::vector<std::byte> level(ktx2_level_bytes(texture, i));
+    std::vector<std::byte> level(io::ktx2_level_bytes(texture, i));
     for (std::size_t j = 1; j < level.size(); j += 2) level[j] = static_cast<std::byte>(random() & 0xff);
     texture.levels.push_back(std::move(level));
   }

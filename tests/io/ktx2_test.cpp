@@ -9,7 +9,7 @@
 #include "sateen/io/file.h"
 #include "support/files.h"
 
-namespace sateen {
+namespace sateen::io {
 namespace {
 
 using namespace test;
@@ -181,4 +181,4 @@ TEST(Ktx2, TheSameTextureGivesTheSameBytes) {
 }
 
 }  // namespace
-}  // namespace sateen
+}  // namespace sateen::io

@@ -7,7 +7,7 @@
 #include "sateen/io/mesh.h"
 #include "support/files.h"
 
-namespace sateen {
+namespace sateen::io {
 namespace {
 
 template <class T>
@@ -54,8 +54,8 @@ TEST(MeshSize, TenMillionTrianglesAreReadAndGetNormalsAndTangents) {
   Mesh mesh = read_model(folder / "big.ply").mesh;
   ASSERT_EQ(mesh.triangles.size(), 2u * kSquares * kSquares);
   ASSERT_GT(mesh.triangles.size(), 10'000'000u);
-  compute_normals(mesh);
-  compute_tangents(mesh);
+  geometry::compute_normals(mesh);
+  geometry::compute_tangents(mesh);
   for (std::size_t i = 0; i < mesh.positions.size(); i += 9973) {
     EXPECT_LT((mesh.normals[i] - Vec3f::UnitZ()).norm(), 1e-5f);
     EXPECT_LT((mesh.tangents[i] - Vec4f(1, 0, 0, 1)).norm(), 1e-3f);
@@ -63,4 +63,4 @@ TEST(MeshSize, TenMillionTrianglesAreReadAndGetNormalsAndTangents) {
 }
 
 }  // namespace
-}  // namespace sateen
+}  // namespace sateen::io

@@ -16,7 +16,7 @@
 #include "support/gltf.h"
 #include "support/meshes.h"
 
-namespace sateen {
+namespace sateen::io {
 namespace {
 
 using namespace test;
@@ -321,4 +321,4 @@ TEST(MeshFile, ClaimedSizesAreCheckedBeforeMemoryIsAskedFor) {
 }
 
 }  // namespace
-}  // namespace sateen
+}  // namespace sateen::io

@@ -12,7 +12,7 @@
 
 #include "support/files.h"
 
-namespace sateen {
+namespace sateen::io {
 namespace {
 
 namespace fs = std::filesystem;
@@ -152,4 +152,4 @@ TEST(Picture8, ARegionIsThatOfTheWholePicture) {
 }
 
 }  // namespace
-}  // namespace sateen
+}  // namespace sateen::io

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace sateen {
+namespace sateen::io {
 namespace {
 
 Vec3 area_vector(const std::vector<Vec3f>& p, const std::array<std::uint32_t, 3>& t) {
@@ -56,4 +56,4 @@ TEST(Triangulate, PolygonsWithoutAreaEndToo) {
 }
 
 }  // namespace
-}  // namespace sateen
+}  // namespace sateen::io

@@ -15,7 +15,7 @@
 #include "sateen/light/spherical_harmonics.h"
 #include "support/files.h"
 
-namespace sateen {
+namespace sateen::light {
 namespace {
 
 using test::random_unit;
@@ -61,11 +61,11 @@ TEST(Environment, BilinearLookupWrapsAroundAndIsExactForConstants) {
 
 TEST(Environment, RefusesPicturesOfAnotherShapeAndClampsNegatives) {
   const test::TemporaryFolder folder;
-  write_image(folder / "square.exr", Image(8, 8, 3, 1));
+  io::write_image(folder / "square.exr", Image(8, 8, 3, 1));
   EXPECT_THAT([&] { read_environment(folder / "square.exr"); },
               testing::ThrowsMessage<Error>(
                   testing::AllOf(testing::HasSubstr("square.exr"), testing::HasSubstr("8 x 8"))));
-  write_image(folder / "negative.exr", Image(8, 4, 3, -1));
+  io::write_image(folder / "negative.exr", Image(8, 4, 3, -1));
   EXPECT_EQ(read_environment(folder / "negative.exr").at(3, 2, 1), 0);
 }
 
@@ -205,4 +205,4 @@ TEST(Punctual, InverseSquareAndCone) {
 }
 
 }  // namespace
-}  // namespace sateen
+}  // namespace sateen::light

@@ -10,12 +10,12 @@
 #include "sateen/matcap/decomposition_file.h"
 #include "sateen/matcap/edits.h"
 #include "sateen/matcap/sphere_map.h"
-#include "sateen/render/registry.h"
+#include "sateen/scene/registry.h"
 #include "support/matcaps.h"
 #include "support/rendering.h"
 #include "support/shapes.h"
 
-namespace sateen {
+namespace sateen::matcap {
 namespace {
 
 using testing::HasSubstr;
@@ -41,7 +41,7 @@ EditedMatcap changed(const std::string& json) {
 }
 
 void expect_matches(EditedMatcap matcap, ModulationMaps maps) {
-  test::Picture picture;
+  test::Shot picture;
   picture.width = picture.height = 96;
   test::expect_matches_evaluator(
       test::torus(), std::make_shared<const DecomposedAppearance>(std::move(matcap), std::move(maps)),
@@ -50,25 +50,26 @@ void expect_matches(EditedMatcap matcap, ModulationMaps maps) {
 
 /// Without textures the GPU reads a table of normals, four times the maps' size across. It must lie between
 /// the evaluator's values within a texel of the table around; on smooth parts these are nearly one.
-void expect_between_neighbours(const Scene& scene) {
-  test::Picture picture;
+void expect_between_neighbours(const scene::Scene& scene) {
+  test::Shot picture;
   picture.width = picture.height = 96;
-  const Frame frame = test::render(scene, picture);
+  const render::Picture frame = test::render(scene, picture);
   const double texel = 2.0 / (4 * carpaint()[Part::high].map.levels.front().size());
   test::Difference outside;
   test::Difference difference;
   for (int y = 0; y < 96; ++y) {
     for (int x = 0; x < 96; ++x) {
-      const auto surface = surface_at(frame, x, y);
+      const auto surface = scene::surface_at(*frame.surfaces, x, y);
       if (!surface) continue;
-      const Appearance& appearance = *scene.materials[static_cast<std::size_t>(surface->material)].appearance;
+      const appearance::Appearance& appearance =
+          *scene.materials[static_cast<std::size_t>(surface->material)].appearance;
       const Vec3 shown = frame.colour.rgb(x, y).cast<double>();
       Vec3 least = Vec3::Constant(std::numeric_limits<double>::infinity());
       Vec3 most = -least;
       const Vec2 t = map_of_direction(surface->eye_normal);
       for (int j = -2; j <= 2; ++j) {
         for (int i = -2; i <= 2; ++i) {
-          Surface near = *surface;
+          appearance::Surface near = *surface;
           near.eye_normal = direction_of_map(t + texel / 2 * Vec2(i, j), false);
           const Vec3 value = appearance.evaluate(near);
           least = least.cwiseMin(value);
@@ -118,7 +119,7 @@ TEST(DecomposedOnGpu, EqualsTheEvaluatorWithTextures) {
 
 // Figure 14: MatCaps by material, their main highlights brought to one place and turned together.
 TEST(DecomposedOnGpu, SeveralByMaterialAlignedAndTurnedTogetherEqualTheEvaluator) {
-  Scene scene;
+  scene::Scene scene;
   scene.mesh = test::torus();
   scene.mesh.material_names = {"left", "right"};
   for (const auto& triangle : scene.mesh.triangles) {
@@ -138,21 +139,22 @@ TEST(DecomposedOnGpu, SeveralByMaterialAlignedAndTurnedTogetherEqualTheEvaluator
 TEST(DecomposedAppearance, IsLoadedByTheRegistryAsTextureAndAsMaterial) {
   const test::TemporaryFolder folder;
   write_matcap(folder / "paint.ktx2", carpaint());
-  Surface surface;
+  appearance::Surface surface;
   surface.eye_normal = normal_on_disc({0.2, -0.3});
   surface.occlusion = 0.5;
   const Vec3 expected = 0.5 * evaluate(unedited(carpaint()), surface.eye_normal);
-  EXPECT_TRUE(load_appearance(folder / "paint.ktx2")->evaluate(surface).isApprox(expected, 2e-3));
-  write_text(folder / "paint.json", R"({"model": "matcap-decomposition", "matcap": "paint.ktx2",
+  EXPECT_TRUE(scene::load_appearance(folder / "paint.ktx2")->evaluate(surface).isApprox(expected, 2e-3));
+  io::write_text(folder / "paint.json", R"({"model": "matcap-decomposition", "matcap": "paint.ktx2",
                                         "edits": [{"edit": "intensity", "part": "low", "factor": 0}]})");
   EditedMatcap dark = unedited(carpaint());
   dark.look(Part::low).intensity = 0;
-  EXPECT_TRUE(load_appearance(folder / "paint.json")
+  EXPECT_TRUE(scene::load_appearance(folder / "paint.json")
                   ->evaluate(surface)
                   .isApprox(0.5 * evaluate(dark, surface.eye_normal), 2e-3));
-  write_text(folder / "odd.json", R"({"model": "matcap-decomposition", "matcap": "paint.ktx2", "shine": 3})");
+  io::write_text(folder / "odd.json",
+                 R"({"model": "matcap-decomposition", "matcap": "paint.ktx2", "shine": 3})");
   try {
-    load_appearance(folder / "odd.json");
+    scene::load_appearance(folder / "odd.json");
     FAIL();
   } catch (const Error& error) {
     EXPECT_THAT(error.what(), testing::AllOf(HasSubstr("odd.json"), HasSubstr("shine")));
@@ -160,4 +162,4 @@ TEST(DecomposedAppearance, IsLoadedByTheRegistryAsTextureAndAsMaterial) {
 }
 
 }  // namespace
-}  // namespace sateen
+}  // namespace sateen::matcap

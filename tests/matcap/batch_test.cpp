@@ -10,7 +10,7 @@
 #include "sateen/matcap/decomposition_file.h"
 #include "support/matcaps.h"
 
-namespace sateen {
+namespace sateen::matcap {
 namespace {
 
 using testing::HasSubstr;
@@ -20,9 +20,9 @@ TEST(Batch, GoesOnWhereItStoppedAndSurvivesBadInputs) {
   const auto jade = folder / "jade <1>.exr";
   const auto lead = folder / "lead.exr";
   const auto broken = folder / "broken.png";
-  write_image(jade, test::example_matcap("jade", 48));
-  write_image(lead, test::example_matcap("lead", 48));
-  write_text(broken, "no picture");
+  io::write_image(jade, test::example_matcap("jade", 48));
+  io::write_image(lead, test::example_matcap("lead", 48));
+  io::write_text(broken, "no picture");
   const std::vector<std::filesystem::path> inputs{broken, jade, lead};
   const auto output = folder / "out";
   auto entries = decompose_files(inputs, output, {}, false);
@@ -42,11 +42,11 @@ TEST(Batch, GoesOnWhereItStoppedAndSurvivesBadInputs) {
   EXPECT_FALSE(decompose_files(inputs, output, other, true)[1].reused);
 
   write_contact_sheet(output, entries);
-  const std::string html = read_text(output / "index.html");
+  const std::string html = io::read_text(output / "index.html");
   EXPECT_THAT(html, HasSubstr("jade &lt;1&gt;"));
   EXPECT_THAT(html, HasSubstr("sheet/jade%20%3C1%3E.png"));
   EXPECT_THAT(html, HasSubstr("class=\"failed\""));
-  EXPECT_EQ(read_image(output / "sheet" / "lead.png").width, 1280);
+  EXPECT_EQ(io::read_image(output / "sheet" / "lead.png").width, 1280);
 }
 
 TEST(Batch, EqualNamesAreRefused) {
@@ -56,4 +56,4 @@ TEST(Batch, EqualNamesAreRefused) {
 }
 
 }  // namespace
-}  // namespace sateen
+}  // namespace sateen::matcap

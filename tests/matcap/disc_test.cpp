@@ -5,7 +5,7 @@
 #include "sateen/matcap/sphere_disc.h"
 #include "support/matcaps.h"
 
-namespace sateen {
+namespace sateen::matcap {
 namespace {
 
 /// A shaded ball before a background of one value.
@@ -68,4 +68,4 @@ TEST(FindDisc, SaysWhatIsWrong) {
 }
 
 }  // namespace
-}  // namespace sateen
+}  // namespace sateen::matcap

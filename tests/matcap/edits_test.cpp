@@ -15,7 +15,7 @@
 #include "sateen/matcap/warp.h"
 #include "support/matcaps.h"
 
-namespace sateen {
+namespace sateen::matcap {
 namespace {
 
 using testing::HasSubstr;
@@ -180,7 +180,7 @@ TEST(Edits, MixTakesAPartFromAnotherMatCapAndBitmapsShine) {
       evaluate_part(mixed, Part::high, n).isApprox(evaluate_part(unedited(jade), Part::high, n), 2e-3));
   EXPECT_EQ(evaluate_part(mixed, Part::low, n), evaluate_part(unedited(lead()), Part::low, n));
 
-  write_image(folder / "lamp.png", Image(20, 10, 3, 1));
+  io::write_image(folder / "lamp.png", Image(20, 10, 3, 1));
   const EditedMatcap lamp = edited(
       R"([{"edit": "bitmap", "part": "high", "file": "lamp.png", "at": [-0.5, 0.2], "size": 40, "intensity": 50}])",
       folder.path());
@@ -201,4 +201,4 @@ TEST(Edits, MistakesAreNamedByNumberAndKey) {
 }
 
 }  // namespace
-}  // namespace sateen
+}  // namespace sateen::matcap

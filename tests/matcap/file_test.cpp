@@ -9,7 +9,7 @@
 #include "sateen/matcap/decomposition_file.h"
 #include "support/matcaps.h"
 
-namespace sateen {
+namespace sateen::matcap {
 namespace {
 
 using testing::HasSubstr;
@@ -58,7 +58,7 @@ TEST(MatcapFile, IsAnArrayOfFourMapsWithRowZeroBelow) {
   MatcapDecomposition matcap = small();
   matcap[Part::high].map.levels[0].back.set_rgb(3, 63, {0.25F, 0.5F, 0.75F});  // the lowest row
   write_matcap(folder / "jade.ktx2", matcap);
-  const Ktx2 texture = read_ktx2(folder / "jade.ktx2");
+  const io::Ktx2 texture = io::read_ktx2(folder / "jade.ktx2");
   EXPECT_EQ(texture.layers, 4U);
   EXPECT_EQ(texture.width, 64U);
   EXPECT_EQ(texture.metadata.at("sateen.kind"), "matcap-decomposition");
@@ -73,11 +73,11 @@ TEST(MatcapFile, WrongFilesAreNamedWithWhatIsWrong) {
   const test::TemporaryFolder folder;
   const auto path = folder / "jade.ktx2";
   write_matcap(path, small());
-  const Ktx2 good = read_ktx2(path);
+  const io::Ktx2 good = io::read_ktx2(path);
   const auto spoilt = [&](const char* key, const std::string& value) {
-    Ktx2 bad = good;
+    io::Ktx2 bad = good;
     bad.metadata[key] = value;
-    write_ktx2(path, bad);
+    io::write_ktx2(path, bad);
     return message(path);
   };
   EXPECT_THAT(spoilt("sateen.kind", "amc"), HasSubstr("no decomposed MatCap"));
@@ -87,16 +87,16 @@ TEST(MatcapFile, WrongFilesAreNamedWithWhatIsWrong) {
   EXPECT_THAT(spoilt("sateen.matcap", "{}"), HasSubstr("space"));
   text.replace(text.find("\"width\":64"), 10, "\"width\":-4");
   EXPECT_THAT(spoilt("sateen.matcap", text), HasSubstr("width"));
-  Ktx2 flat = good;
+  io::Ktx2 flat = good;
   flat.layers = 0;
   for (auto& level : flat.levels) level.resize(level.size() / 4);
-  write_ktx2(path, flat);
+  io::write_ktx2(path, flat);
   EXPECT_THAT(message(path), HasSubstr("four square layers"));
-  auto bytes = read_bytes(path);
+  auto bytes = io::read_bytes(path);
   bytes.resize(bytes.size() / 2);
-  write_bytes(path, bytes);
+  io::write_bytes(path, bytes);
   EXPECT_THAT(message(path), HasSubstr("jade.ktx2"));
 }
 
 }  // namespace
-}  // namespace sateen
+}  // namespace sateen::matcap

@@ -13,7 +13,7 @@
 #include "sateen/matcap/warp.h"
 #include "support/matcaps.h"
 
-namespace sateen {
+namespace sateen::matcap {
 namespace {
 
 constexpr int kSizes[] = {128, 256, 512};
@@ -203,7 +203,7 @@ TEST(FilterEstimate, GrainDoesNotPassForAFeature) {
 
 /// The regions of tests/data/matcap_regions.txt for one MatCap's high part.
 std::vector<Region> careful_regions(const std::string& matcap) {
-  std::istringstream lines(read_text(test::source_dir() / "tests" / "data" / "matcap_regions.txt"));
+  std::istringstream lines(io::read_text(test::source_dir() / "tests" / "data" / "matcap_regions.txt"));
   std::vector<Region> regions;
   for (std::string line; std::getline(lines, line);) {
     std::istringstream words(line);
@@ -284,4 +284,4 @@ TEST(SignaturePlot, DrawsACurveAndItsChoice) {
 }
 
 }  // namespace
-}  // namespace sateen
+}  // namespace sateen::matcap

@@ -7,7 +7,7 @@
 
 // Figure 12: a sphere under an environment that is known, before and after the light turns, against the two
 // things one would try without a decomposition.
-namespace sateen {
+namespace sateen::matcap {
 namespace {
 
 constexpr int kSize = 128;
@@ -96,4 +96,4 @@ TEST(TurnedLight, IsMuchCloserToTheTruthThanATurnedPictureOrAMirroredSphere) {
 }
 
 }  // namespace
-}  // namespace sateen
+}  // namespace sateen::matcap

@@ -11,7 +11,7 @@
 #include "sateen/matcap/warp.h"
 #include "support/matcaps.h"
 
-namespace sateen {
+namespace sateen::matcap {
 namespace {
 
 /// decompose, write, read, bake: the largest difference over the sphere, in 1/255 of display values.
@@ -192,4 +192,4 @@ TEST(Environment, ShowsTheLightAMirrorWouldSee) {
 }
 
 }  // namespace
-}  // namespace sateen
+}  // namespace sateen::matcap

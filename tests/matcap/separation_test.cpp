@@ -11,7 +11,7 @@
 #include "support/matcaps.h"
 #include "support/opening_brute_force.h"
 
-namespace sateen {
+namespace sateen::matcap {
 namespace {
 
 std::vector<float> channel(const Image& image, int c) {
@@ -198,4 +198,4 @@ TEST(Separation, NegativeValuesStayInHighAndNaNIsRefused) {
 }
 
 }  // namespace
-}  // namespace sateen
+}  // namespace sateen::matcap

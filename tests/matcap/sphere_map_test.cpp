@@ -10,7 +10,7 @@
 #include "sateen/matcap/warp.h"
 #include "support/matcaps.h"
 
-namespace sateen {
+namespace sateen::matcap {
 namespace {
 
 SphereMap gaussian_map(int size, const Vec3& centre, double variance) {
@@ -207,4 +207,4 @@ TEST(Unwarp, GivesTheComponentBackAtThePixelsAndIsSmoothPastTheRim) {
 }
 
 }  // namespace
-}  // namespace sateen
+}  // namespace sateen::matcap

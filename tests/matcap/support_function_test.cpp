@@ -8,7 +8,7 @@
 
 #include "support/opening_brute_force.h"
 
-namespace sateen {
+namespace sateen::matcap {
 namespace {
 
 using Scale = std::function<float(double x, double y, double z)>;
@@ -101,4 +101,4 @@ TEST(SupportFunction, WorksOnTheSmallestPictures) {
 }
 
 }  // namespace
-}  // namespace sateen
+}  // namespace sateen::matcap

@@ -14,16 +14,16 @@
 #include "support/shapes.h"
 #include "support/tables.h"
 
-namespace sateen {
+namespace sateen::render {
 namespace {
 
-using test::Picture;
+using test::Shot;
 
-std::shared_ptr<const Appearance> amc(AmcTable table) {
-  return std::make_shared<const AmcAppearance>(std::move(table));
+std::shared_ptr<const appearance::Appearance> amc(amc::AmcTable table) {
+  return std::make_shared<const amc::AmcAppearance>(std::move(table));
 }
 
-test::Difference compare(const Frame& a, const Frame& b, double tolerance) {
+test::Difference compare(const render::Picture& a, const render::Picture& b, double tolerance) {
   test::Difference difference;
   for (int y = 0; y < a.colour.height; ++y) {
     for (int x = 0; x < a.colour.width; ++x) {
@@ -36,26 +36,27 @@ test::Difference compare(const Frame& a, const Frame& b, double tolerance) {
 }
 
 TEST(AmcOnGpu, EqualsTheEvaluatorInEverySwitch) {
-  Picture picture{.width = 96, .height = 96};
+  test::Shot picture{.width = 96, .height = 96};
   picture.camera.field_of_view = radians(70);
   picture.rotation = rotation_xyz({0.5, 0.3, 0});
   for (const int symmetry : {1, 2, 3}) {
     const auto appearance = amc(test::analytic_table(32, 32, symmetry));
-    for (const TangentAngle mode : {TangentAngle::vertex, TangentAngle::naive, TangentAngle::fragment}) {
+    for (const scene::TangentAngle mode :
+         {scene::TangentAngle::vertex, scene::TangentAngle::naive, scene::TangentAngle::fragment}) {
       test::expect_matches_evaluator(test::torus(), appearance, 4e-3, {.tangent_angle = mode}, picture);
     }
   }
   const auto appearance = amc(test::analytic_table(32, 32, 2));
-  for (const Perspective perspective : {Perspective::equation4, Perspective::none}) {
+  for (const scene::Perspective perspective : {scene::Perspective::equation4, scene::Perspective::none}) {
     test::expect_matches_evaluator(test::torus(), appearance, 4e-3, {.perspective = perspective}, picture);
   }
   test::expect_matches_evaluator(test::torus(), appearance, 4e-3, {.renormalise = false}, picture);
 }
 
 TEST(AmcOnGpu, EightBitTablesAreDecodedFromSrgb) {
-  AmcTable table = test::analytic_table(32, 32, 2);
-  table.encoding = AmcEncoding::srgb8;
-  quantise(table);
+  amc::AmcTable table = test::analytic_table(32, 32, 2);
+  table.encoding = amc::AmcEncoding::srgb8;
+  amc::quantise(table);
   test::expect_matches_evaluator(test::torus(), amc(table), 4e-3);
 }
 
@@ -64,8 +65,9 @@ TEST(AmcOnGpu, EightBitTablesAreDecodedFromSrgb) {
 TEST(AmcOnGpu, OfASphereWithTheCapturesTangentsIsTheCapturedFrame) {
   const auto appearance = amc(test::analytic_table(128, 64, 1));
   for (const double turns : {0.0, 0.13, 0.25, 0.5, 0.71, 0.999}) {
-    const Scene scene = test::scene_of(test::captured_hemisphere(2 * kPi * turns, 128, 256), appearance);
-    const Frame frame = test::render(scene, test::in_view_space(64));
+    const scene::Scene scene =
+        test::scene_of(test::captured_hemisphere(2 * kPi * turns, 128, 256), appearance);
+    const render::Picture frame = test::render(scene, test::in_view_space(64));
     test::Difference difference;
     for (int y = 0; y < 64; ++y) {
       for (int x = 0; x < 64; ++x) {
@@ -84,29 +86,29 @@ TEST(AmcOnGpu, ATableOfHalfATurnLooksLikeTheSameDataOverAFullTurn) {
   const auto half = amc(test::analytic_table(32, 64, 2));
   const auto full = amc(test::table_of(
       32, 128, 1, [](const Vec3& normal, double k) { return test::analytic_colour(normal, k, 2); }));
-  Picture picture;
+  test::Shot picture;
   picture.rotation = rotation_xyz({0.5, 0.3, 0});
-  for (const TangentAngle mode : {TangentAngle::vertex, TangentAngle::fragment}) {
-    const RenderSwitches switches{.tangent_angle = mode};
-    const Frame a = test::render(test::scene_of(test::torus(), half, switches), picture);
-    const Frame b = test::render(test::scene_of(test::torus(), full, switches), picture);
+  for (const scene::TangentAngle mode : {scene::TangentAngle::vertex, scene::TangentAngle::fragment}) {
+    const scene::RenderSwitches switches{.tangent_angle = mode};
+    const render::Picture a = test::render(test::scene_of(test::torus(), half, switches), picture);
+    const render::Picture b = test::render(test::scene_of(test::torus(), full, switches), picture);
     const test::Difference difference = compare(a, b, 2e-3);
     EXPECT_EQ(difference.failing, 0) << difference.largest;
   }
 }
 
 TEST(AmcOnGpu, AnIsotropicTableIsThePlainMatCapEverywhere) {
-  const AmcTable table =
+  const amc::AmcTable table =
       test::table_of(64, 16, 1, [](const Vec3& normal, double) { return test::isotropic_colour(normal); });
-  const auto matcap = std::make_shared<const MatCap>(isotropic_average(table));
+  const auto matcap = std::make_shared<const matcap::MatCap>(amc::isotropic_average(table));
   // Both are filled from the rim by the same rule.
-  AmcTable filled = table;
-  for (int f = 0; f < table.slices; ++f) set_slice_image(filled, f, matcap->picture());
-  Picture picture;
+  amc::AmcTable filled = table;
+  for (int f = 0; f < table.slices; ++f) amc::set_slice_image(filled, f, matcap->picture());
+  test::Shot picture;
   picture.camera.field_of_view = radians(60);
   for (const Mesh& mesh : {test::sphere(), test::torus()}) {
-    const Frame a = test::render(test::scene_of(mesh, amc(filled)), picture);
-    const Frame b = test::render(test::scene_of(mesh, matcap), picture);
+    const render::Picture a = test::render(test::scene_of(mesh, amc(filled)), picture);
+    const render::Picture b = test::render(test::scene_of(mesh, matcap), picture);
     const test::Difference difference = compare(a, b, 1e-3);
     EXPECT_EQ(difference.failing, 0) << difference.largest;
   }
@@ -115,10 +117,10 @@ TEST(AmcOnGpu, AnIsotropicTableIsThePlainMatCapEverywhere) {
 TEST(AmcOnGpu, TurningTangentsByAPeriodChangesNothingAndByLessDoes) {
   Mesh mesh = test::torus();
   const auto appearance = amc(test::analytic_table(32, 64, 2));
-  const Frame before = test::render(test::scene_of(mesh, appearance), {});
-  rotate_tangents(mesh, kPi);
+  const render::Picture before = test::render(test::scene_of(mesh, appearance), {});
+  geometry::rotate_tangents(mesh, kPi);
   EXPECT_EQ(compare(before, test::render(test::scene_of(mesh, appearance), {}), 2e-3).failing, 0);
-  rotate_tangents(mesh, kPi / 2);
+  geometry::rotate_tangents(mesh, kPi / 2);
   EXPECT_GT(compare(before, test::render(test::scene_of(mesh, appearance), {}), 0.1).failing_share(), 0.3);
 }
 
@@ -131,16 +133,17 @@ struct FromTruth {
   int foreshortened = 0;
 };
 
-FromTruth from_truth(const Mesh& mesh, int symmetry, TangentAngle mode, const Picture& picture) {
+FromTruth from_truth(const Mesh& mesh, int symmetry, scene::TangentAngle mode, const test::Shot& picture) {
   constexpr double tolerance = 0.03;
   const auto appearance = amc(test::analytic_table(32, 64, symmetry));
-  const Frame truth =
-      test::render(test::scene_of(mesh, appearance, {.tangent_angle = TangentAngle::fragment}), picture);
-  const Frame seen = test::render(test::scene_of(mesh, appearance, {.tangent_angle = mode}), picture);
+  const render::Picture truth = test::render(
+      test::scene_of(mesh, appearance, {.tangent_angle = scene::TangentAngle::fragment}), picture);
+  const render::Picture seen =
+      test::render(test::scene_of(mesh, appearance, {.tangent_angle = mode}), picture);
   FromTruth result;
   for (int y = 0; y < truth.colour.height; ++y) {
     for (int x = 0; x < truth.colour.width; ++x) {
-      const auto surface = surface_at(truth, x, y);
+      const auto surface = scene::surface_at(*truth.surfaces, x, y);
       if (!surface) continue;
       const double apart = (truth.colour.rgb(x, y) - seen.colour.rgb(x, y)).cwiseAbs().maxCoeff();
       if (std::abs(surface->tangent.dot(surface->view)) > std::cos(radians(35))) {
@@ -153,9 +156,9 @@ FromTruth from_truth(const Mesh& mesh, int symmetry, TangentAngle mode, const Pi
   return result;
 }
 
-void expect_fixed(const Mesh& mesh, int symmetry, const Picture& picture) {
-  const FromTruth fixed = from_truth(mesh, symmetry, TangentAngle::vertex, picture);
-  const FromTruth naive = from_truth(mesh, symmetry, TangentAngle::naive, picture);
+void expect_fixed(const Mesh& mesh, int symmetry, const test::Shot& picture) {
+  const FromTruth fixed = from_truth(mesh, symmetry, scene::TangentAngle::vertex, picture);
+  const FromTruth naive = from_truth(mesh, symmetry, scene::TangentAngle::naive, picture);
   EXPECT_EQ(fixed.elsewhere.failing, 0) << "R = " << symmetry << ", largest " << fixed.elsewhere.largest
                                         << " at " << fixed.elsewhere.x << ", " << fixed.elsewhere.y;
   EXPECT_LE(fixed.foreshortened, fixed.elsewhere.pixels / 1000);
@@ -168,7 +171,7 @@ void expect_fixed(const Mesh& mesh, int symmetry, const Picture& picture) {
 // Figure 9: without the fix, triangles across the cut run through all angles. With it, what remains is how a
 // linear k differs from the angle of a linear tangent inside one triangle.
 TEST(CyclicFix, LeavesNoWrongPixelOnATorus) {
-  Picture picture{.width = 256, .height = 256};
+  test::Shot picture{.width = 256, .height = 256};
   picture.rotation = rotation_xyz({0.6, 0.2, 0});
   for (const bool along_tube : {false, true}) {
     for (const int symmetry : {1, 2, 3})
@@ -177,16 +180,16 @@ TEST(CyclicFix, LeavesNoWrongPixelOnATorus) {
 }
 
 TEST(CyclicFix, LeavesNoWrongPixelOnAGarment) {
-  Mesh mesh = read_model(test::examples() / "garment" / "jacket.obj").mesh;
-  if (mesh.normals.empty()) compute_normals(mesh);
-  compute_tangents(mesh);
+  Mesh mesh = io::read_model(test::examples() / "garment" / "jacket.obj").mesh;
+  if (mesh.normals.empty()) geometry::compute_normals(mesh);
+  geometry::compute_tangents(mesh);
   // In the large triangles of the file k itself is far from linear: finer ones leave the cut alone to be
   // seen.
   for (int i = 0; i < 2; ++i) mesh = test::subdivided(mesh);
-  Picture picture{.width = 256, .height = 256};
+  test::Shot picture{.width = 256, .height = 256};
   picture.rotation = rotation_xyz({0.1, 0.4, 0});
   for (const int symmetry : {1, 2}) expect_fixed(mesh, symmetry, picture);
 }
 
 }  // namespace
-}  // namespace sateen
+}  // namespace sateen::render

@@ -9,7 +9,7 @@
 #include "support/files.h"
 
 // `sateen render` and `sateen shade` as users meet them.
-namespace sateen {
+namespace sateen::render {
 namespace {
 
 using test::ProgramResult;
@@ -20,13 +20,13 @@ class RenderCli : public testing::Test {
  protected:
   RenderCli() {
     const std::string corners = "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\n";
-    write_text(folder / "bare.obj", corners + "f 1 2 3 4\n");
-    write_text(
+    io::write_text(folder / "bare.obj", corners + "f 1 2 3 4\n");
+    io::write_text(
         folder / "cloth.obj",
         corners +
             "vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nusemtl front\nf 1/1 2/2 3/3\nusemtl sleeve\nf 1/1 3/3 4/4\n");
-    write_amc(folder / "silk.ktx2", test::analytic_table(16, 16, 2));
-    write_image(folder / "clay.exr", Image(16, 16, 3, 0.25f));
+    amc::write_amc(folder / "silk.ktx2", test::analytic_table(16, 16, 2));
+    io::write_image(folder / "clay.exr", Image(16, 16, 3, 0.25f));
   }
 
   std::string at(const std::string& name) const { return fmt::format("'{}'", (folder / name).string()); }
@@ -48,7 +48,7 @@ TEST_F(RenderCli, DrawsAPictureAndSaysNothing) {
       render("cloth.obj", "--material " + at("silk.ktx2") + " -o " + at("out.exr") + " --camera view-space");
   EXPECT_EQ(result.exit_code, 0);
   EXPECT_EQ(result.output, "");
-  const Image picture = read_image(folder / "out.exr");
+  const Image picture = io::read_image(folder / "out.exr");
   EXPECT_EQ(picture.width, 16);
   EXPECT_EQ(picture.channels, 4);
   // A flat cloth facing the viewer, threads along x: the table's middle at k = 0.
@@ -60,7 +60,7 @@ TEST_F(RenderCli, AnotherMaterialIsDrawnToTheRight) {
   const auto picture = [&](const std::string& materials) {
     const ProgramResult result = render("cloth.obj", materials + " -o " + at("out.exr"));
     EXPECT_EQ(result.exit_code, 0) << result.output;
-    return read_image(folder / "out.exr");
+    return io::read_image(folder / "out.exr");
   };
   const Image left = picture("--material " + at("silk.ktx2"));
   const Image right = picture("--material " + at("clay.exr"));
@@ -78,7 +78,7 @@ TEST_F(RenderCli, TurningTheTangentsSwapsWarpAndWeft) {
       0);
   const Vec3 expected = test::analytic_colour(Vec3::UnitZ(), 0.125, 2);
   // Near the middle, where the view is straight; samples of a coarse table.
-  EXPECT_LT((read_image(folder / "out.exr").rgb(8, 8).cast<double>() - expected).norm(), 0.05);
+  EXPECT_LT((io::read_image(folder / "out.exr").rgb(8, 8).cast<double>() - expected).norm(), 0.05);
 }
 
 TEST_F(RenderCli, RenderedVectorsShadeToTheSamePicture) {
@@ -89,15 +89,15 @@ TEST_F(RenderCli, RenderedVectorsShadeToTheSamePicture) {
           .exit_code,
       0);
   for (const char* name : {"normal", "tangent", "k", "mask", "uv", "occlusion", "position"}) {
-    EXPECT_EQ(read_data(folder / (std::string("out.") + name + ".exr")).width, 16) << name;
+    EXPECT_EQ(io::read_data(folder / (std::string("out.") + name + ".exr")).width, 16) << name;
   }
   ASSERT_EQ(
       test::run_program("shade --normals " + at("out.normal.exr") + " --tangents " + at("out.tangent.exr") +
                         " --material " + at("silk.ktx2") + " -o " + at("shaded.exr"))
           .exit_code,
       0);
-  const Image drawn = read_image(folder / "out.exr");
-  const Image shaded = read_image(folder / "shaded.exr");
+  const Image drawn = io::read_image(folder / "out.exr");
+  const Image shaded = io::read_image(folder / "shaded.exr");
   for (std::size_t i = 0; i < drawn.data.size(); ++i) EXPECT_NEAR(drawn.data[i], shaded.data[i], 6e-3);
 }
 
@@ -106,7 +106,7 @@ TEST_F(RenderCli, EachMaterialOfTheMeshCanHaveItsOwn) {
                                     at("out.exr") + " --camera view-space")
                 .exit_code,
             0);
-  const Image picture = read_image(folder / "out.exr");
+  const Image picture = io::read_image(folder / "out.exr");
   EXPECT_NEAR(picture.at(4, 4, 0), 0.25, 1e-3);  // upper left: sleeve
   EXPECT_NE(picture.at(12, 12, 0), 0.25f);       // lower right: front
   expect_wrong_input(
@@ -131,7 +131,7 @@ TEST_F(RenderCli, BackgroundsAndOddSizes) {
                               " -o " + at("out.png"))
                 .exit_code,
             0);
-  const Image picture = read_data(folder / "out.png");
+  const Image picture = io::read_data(folder / "out.png");
   EXPECT_EQ(picture.width, 7);
   EXPECT_EQ(picture.height, 13);
   EXPECT_NEAR(picture.at(0, 0, 0), 1, 0.003);
@@ -183,4 +183,4 @@ TEST_F(RenderCli, AWrongCommandLineExitsWithTwo) {
 }
 
 }  // namespace
-}  // namespace sateen
+}  // namespace sateen::render

@@ -13,20 +13,20 @@
 #include "support/rendering.h"
 #include "support/shapes.h"
 
-namespace sateen {
+namespace sateen::render {
 namespace {
 
 constexpr int kSide = 160;
 
-Image picture_of(const Mesh& mesh, std::shared_ptr<const Appearance> appearance,
-                 const RenderSwitches& switches, const Vec3& degrees) {
-  test::Picture picture{.width = kSide, .height = kSide, .samples = 3, .surfaces = false};
+Image picture_of(const Mesh& mesh, std::shared_ptr<const appearance::Appearance> appearance,
+                 const scene::RenderSwitches& switches, const Vec3& degrees) {
+  test::Shot picture{.width = kSide, .height = kSide, .samples = 3, .surfaces = false};
   picture.rotation = rotation_xyz(degrees * (kPi / 180));
   return test::render(test::scene_of(mesh, std::move(appearance), switches), picture).colour;
 }
 
-std::shared_ptr<const Appearance> satin() {
-  return std::make_shared<const AmcAppearance>(test::analytic_table(64, 64, 2));
+std::shared_ptr<const appearance::Appearance> satin() {
+  return std::make_shared<const amc::AmcAppearance>(test::analytic_table(64, 64, 2));
 }
 
 TEST(Golden, TorusWithTangentsAroundTheRing) {
@@ -38,17 +38,18 @@ TEST(Golden, TorusWithTangentsAroundTheTube) {
 }
 
 TEST(Golden, TorusWithoutTheCyclicFix) {
-  const RenderSwitches naive{.tangent_angle = TangentAngle::naive};
+  const scene::RenderSwitches naive{.tangent_angle = scene::TangentAngle::naive};
   test::expect_golden(picture_of(test::torus(0.4, 24, 12), satin(), naive, {40, 20, 0}), "torus_naive");
 }
 
 TEST(Golden, JacketWithAMatCap) {
-  Mesh mesh = read_model(test::examples() / "garment" / "jacket.obj").mesh;
-  if (mesh.normals.empty()) compute_normals(mesh);
+  Mesh mesh = io::read_model(test::examples() / "garment" / "jacket.obj").mesh;
+  if (mesh.normals.empty()) geometry::compute_normals(mesh);
   mesh.material_ids.clear();
-  test::expect_golden(picture_of(mesh, std::make_shared<const MatCap>(test::test_matcap()), {}, {0, 25, 0}),
-                      "jacket_matcap");
+  test::expect_golden(
+      picture_of(mesh, std::make_shared<const matcap::MatCap>(test::test_matcap()), {}, {0, 25, 0}),
+      "jacket_matcap");
 }
 
 }  // namespace
-}  // namespace sateen
+}  // namespace sateen::render

@@ -5,32 +5,32 @@
 #include "support/rendering.h"
 #include "support/shapes.h"
 
-namespace sateen {
+namespace sateen::render {
 namespace {
 
-using test::Picture;
+using test::Shot;
 
-SurfaceMap constant_map(const Vec3f& value) {
+scene::SurfaceMap constant_map(const Vec3f& value) {
   Image image(2, 2, 3);
   for (int i = 0; i < 4; ++i) image.set_rgb(i % 2, i / 2, value);
   return {.texture = std::make_shared<const TextureData>(picture_texture(image, TextureData::Wrap::repeat))};
 }
 
-Scene plane_scene() {
-  return test::scene_of(test::plane(), std::make_shared<const MatCap>(test::test_matcap()));
+scene::Scene plane_scene() {
+  return test::scene_of(test::plane(), std::make_shared<const matcap::MatCap>(test::test_matcap()));
 }
 
-Surface centre(const Scene& scene, const Mat3& rotation = Mat3::Identity()) {
-  Picture picture{.width = 9, .height = 9};
-  picture.camera.kind = Camera::Kind::view_space;
+appearance::Surface centre(const scene::Scene& scene, const Mat3& rotation = Mat3::Identity()) {
+  test::Shot picture{.width = 9, .height = 9};
+  picture.camera.kind = scene::Camera::Kind::view_space;
   picture.rotation = rotation;
-  return *surface_at(test::render(scene, picture), 4, 4);
+  return *scene::surface_at(*test::render(scene, picture).surfaces, 4, 4);
 }
 
 // Stored as 0.5 + 0.5 n, x along u, green (y) along v, which grows upwards.
 TEST(NormalMap, IsReadInTheFrameOfTheUvs) {
   const Vec3f bump = Vec3f(0.3f, 0.5f, 0.8f).normalized();
-  Scene scene = plane_scene();
+  scene::Scene scene = plane_scene();
   scene.materials[0].normal_map = constant_map((bump + Vec3f::Ones()) / 2);
   EXPECT_LT((centre(scene).normal - bump.cast<double>()).norm(), 2e-3);
 
@@ -53,11 +53,11 @@ TEST(NormalMap, IsReadInTheFrameOfTheUvs) {
 
 TEST(NormalMap, KeepsTheFrameOfTheUvsWhenTangentsPointElsewhere) {
   const Vec3f bump = Vec3f(0.6f, 0, 0.8f);
-  Scene scene = plane_scene();
+  scene::Scene scene = plane_scene();
   scene.materials[0].normal_map = constant_map((bump + Vec3f::Ones()) / 2);
   scene.map_tangents = scene.mesh.tangents;
   for (Vec4f& t : scene.mesh.tangents) t = Vec4f(0, 1, 0, 1);
-  const Surface surface = centre(scene);
+  const appearance::Surface surface = centre(scene);
   EXPECT_LT((surface.normal - bump.cast<double>()).norm(), 2e-3);
   EXPECT_LT((surface.tangent - Vec3::UnitY()).norm(), 2e-3);
   EXPECT_NEAR(surface.tangent_angle, 0.25, 1e-4);
@@ -66,11 +66,11 @@ TEST(NormalMap, KeepsTheFrameOfTheUvsWhenTangentsPointElsewhere) {
 TEST(DirectionMap, ReplacesTheTangent) {
   for (const double degrees : {0.0, 30.0, 120.0, 200.0, 345.0}) {
     const double angle = radians(degrees);
-    Scene scene = plane_scene();
+    scene::Scene scene = plane_scene();
     const Vec3f stored(static_cast<float>(0.5 + 0.5 * std::cos(angle)),
                        static_cast<float>(0.5 + 0.5 * std::sin(angle)), 0);
     scene.materials[0].direction_map = constant_map(stored);
-    const Surface surface = centre(scene);
+    const appearance::Surface surface = centre(scene);
     EXPECT_LT((surface.tangent - Vec3(std::cos(angle), std::sin(angle), 0)).norm(), 2e-3);
     const double turns = surface.tangent_angle - degrees / 360;
     EXPECT_LT(std::abs(turns - std::round(turns)), 1e-3);
@@ -78,7 +78,7 @@ TEST(DirectionMap, ReplacesTheTangent) {
 }
 
 TEST(OcclusionMap, MultipliesTheMeshsOwnAndTakesItsFirstChannel) {
-  Scene scene = plane_scene();
+  scene::Scene scene = plane_scene();
   scene.mesh.occlusion.assign(scene.mesh.positions.size(), 0.5f);
   scene.materials[0].occlusion_map = constant_map({0.5f, 1, 1});
   EXPECT_NEAR(centre(scene).occlusion, 0.25, 1e-4);
@@ -90,8 +90,8 @@ TEST(SurfaceMap, ScaleAndOffsetMoveThePictureWithVUp) {
   Image image(1, 4, 3);
   for (int y = 0; y < 4; ++y)
     image.set_rgb(0, y, Vec3f::Constant(static_cast<float>(4 - y) / 4));  // grows upwards
-  Scene scene = plane_scene();
-  SurfaceMap& map = scene.materials[0].occlusion_map;
+  scene::Scene scene = plane_scene();
+  scene::SurfaceMap& map = scene.materials[0].occlusion_map;
   map.texture = std::make_shared<const TextureData>(picture_texture(image, TextureData::Wrap::repeat));
   map.scale = {1, 0};
   map.offset = {0, 0.125f};  // the lowest texel's centre
@@ -101,4 +101,4 @@ TEST(SurfaceMap, ScaleAndOffsetMoveThePictureWithVUp) {
 }
 
 }  // namespace
-}  // namespace sateen
+}  // namespace sateen::render

@@ -2,28 +2,28 @@
 #include "sateen/core/direction.h"
 #include "sateen/core/error.h"
 #include "sateen/matcap/matcap.h"
-#include "sateen/render/aov.h"
-#include "sateen/render/constant.h"
+#include "sateen/scene/aov.h"
+#include "sateen/scene/constant.h"
 #include "support/rendering.h"
 #include "support/shapes.h"
 
-namespace sateen {
+namespace sateen::render {
 namespace {
 
-using test::Picture;
+using test::Shot;
 
-View one_view(const Scene& scene, const Camera& camera, double aspect) {
+scene::View one_view(const scene::Scene& scene, const scene::Camera& camera, double aspect) {
   const std::vector<Mat3> still{Mat3::Identity()};
-  return frame_object(scene.mesh, camera, still, aspect)[0];
+  return scene::frame_object(scene.mesh, camera, still, aspect)[0];
 }
 
-Scene white(Mesh mesh) {
-  return test::scene_of(std::move(mesh), std::make_shared<const Constant>(Vec3(1, 1, 1)));
+scene::Scene white(Mesh mesh) {
+  return test::scene_of(std::move(mesh), std::make_shared<const scene::Constant>(Vec3(1, 1, 1)));
 }
 
 TEST(Picture, IsTransparentWhereNothingIsAndAssociatedAtEdges) {
-  const Frame frame = test::render(white(test::sphere(256, 128)),
-                                   {.width = 65, .height = 33, .samples = 4, .surfaces = false});
+  const render::Picture frame = test::render(white(test::sphere(256, 128)),
+                                             {.width = 65, .height = 33, .samples = 4, .surfaces = false});
   EXPECT_EQ(frame.colour.width, 65);
   EXPECT_EQ(frame.colour.height, 33);
   EXPECT_EQ(frame.colour.at(0, 0, 3), 0);
@@ -42,9 +42,9 @@ TEST(Picture, IsTransparentWhereNothingIsAndAssociatedAtEdges) {
 
 // A sphere's silhouette covers pi r^2 of the picture: box-filtered coverage sums to that area.
 TEST(Picture, SupersamplingMeasuresCoverage) {
-  Picture picture{.width = 40, .height = 40, .samples = 8, .surfaces = false};
-  picture.camera.kind = Camera::Kind::view_space;
-  const Frame frame = test::render(white(test::sphere(512, 256)), picture);
+  test::Shot picture{.width = 40, .height = 40, .samples = 8, .surfaces = false};
+  picture.camera.kind = scene::Camera::Kind::view_space;
+  const render::Picture frame = test::render(white(test::sphere(512, 256)), picture);
   double area = 0;
   for (int y = 0; y < 40; ++y) {
     for (int x = 0; x < 40; ++x) area += frame.colour.at(x, y, 3);
@@ -56,16 +56,16 @@ TEST(Picture, SupersamplingMeasuresCoverage) {
 TEST(Picture, SamplesAreAveragedInLinearLight) {
   Mesh mesh = test::plane();
   for (Vec3f& p : mesh.positions) p.x() = (p.x() - 1) / 2;  // the left half
-  Picture picture{.width = 1, .height = 1, .samples = 4, .surfaces = false};
-  picture.camera.kind = Camera::Kind::view_space;
+  test::Shot picture{.width = 1, .height = 1, .samples = 4, .surfaces = false};
+  picture.camera.kind = scene::Camera::Kind::view_space;
   EXPECT_NEAR(test::render(white(mesh), picture).colour.at(0, 0, 0), 0.5, 1e-6);
 }
 
 TEST(Picture, AColouredBackgroundIsOpaqueAndBlendsAtEdges) {
   test::context();
-  const Scene scene = white(test::sphere());
+  const scene::Scene scene = white(test::sphere());
   PictureSettings settings{.width = 32, .height = 32, .samples = 4, .background = Vec3f(0, 0.5f, 0)};
-  const Frame frame = Renderer(scene).render(one_view(scene, {}, 1), settings);
+  const render::Picture frame = Renderer(scene).render(one_view(scene, {}, 1), settings);
   for (int y = 0; y < 32; ++y) {
     for (int x = 0; x < 32; ++x) {
       EXPECT_EQ(frame.colour.at(x, y, 3), 1);
@@ -76,13 +76,14 @@ TEST(Picture, AColouredBackgroundIsOpaqueAndBlendsAtEdges) {
 
 TEST(Picture, TilesDoNotShow) {
   test::context();
-  const Scene scene = test::scene_of(test::torus(), std::make_shared<const MatCap>(test::test_matcap()));
+  const scene::Scene scene =
+      test::scene_of(test::torus(), std::make_shared<const matcap::MatCap>(test::test_matcap()));
   const Renderer renderer(scene);
-  const View view = one_view(scene, {}, 101.0 / 67);
+  const scene::View view = one_view(scene, {}, 101.0 / 67);
   PictureSettings settings{.width = 101, .height = 67, .samples = 2, .background = {}, .surfaces = true};
-  const Frame whole = renderer.render(view, settings);
+  const render::Picture whole = renderer.render(view, settings);
   settings.tile = 50;  // 25 pixels a tile
-  const Frame tiled = renderer.render(view, settings);
+  const render::Picture tiled = renderer.render(view, settings);
   test::Difference difference;
   for (int y = 0; y < 67; ++y) {
     for (int x = 0; x < 101; ++x) {
@@ -92,16 +93,18 @@ TEST(Picture, TilesDoNotShow) {
   }
   // A sample exactly on an edge may fall to the other side.
   EXPECT_LE(difference.failing, 3) << difference.largest;
-  EXPECT_EQ(aov(whole, "mask").at(50, 5, 0), aov(tiled, "mask").at(50, 5, 0));
+  EXPECT_EQ(scene::aov(*whole.surfaces, "mask").at(50, 5, 0),
+            scene::aov(*tiled.surfaces, "mask").at(50, 5, 0));
 }
 
 TEST(Picture, NothingOfTheObjectIsCutOff) {
-  for (const Camera::Kind kind : {Camera::Kind::perspective, Camera::Kind::orthographic}) {
+  for (const scene::Camera::Kind kind :
+       {scene::Camera::Kind::perspective, scene::Camera::Kind::orthographic}) {
     for (const double turn : {0.0, 0.6, 1.5}) {
-      Picture picture{.width = 120, .height = 50, .surfaces = false};
+      test::Shot picture{.width = 120, .height = 50, .surfaces = false};
       picture.camera.kind = kind;
       picture.rotation = rotation_xyz({turn, turn / 2, turn});
-      const Frame frame = test::render(white(test::torus()), picture);
+      const render::Picture frame = test::render(white(test::torus()), picture);
       int covered = 0;
       for (int y = 0; y < 50; ++y) {
         for (int x = 0; x < 120; ++x) {
@@ -131,27 +134,27 @@ TEST(Picture, NearerSurfacesHideOthers) {
     mesh.material_ids.push_back(1);
   }
   mesh.material_names = {"behind", "in front"};
-  Scene scene = white(mesh);
-  scene.materials.push_back({.appearance = std::make_shared<const Constant>(Vec3(0, 0, 1))});
-  Picture picture{.width = 4, .height = 4};
-  picture.camera.kind = Camera::Kind::view_space;
-  Frame frame = test::render(scene, picture);
+  scene::Scene scene = white(mesh);
+  scene.materials.push_back({.appearance = std::make_shared<const scene::Constant>(Vec3(0, 0, 1))});
+  test::Shot picture{.width = 4, .height = 4};
+  picture.camera.kind = scene::Camera::Kind::view_space;
+  render::Picture frame = test::render(scene, picture);
   EXPECT_EQ(frame.colour.rgb(1, 1), Vec3f(0, 0, 1));
-  EXPECT_EQ(surface_at(frame, 1, 1)->material, 1);
+  EXPECT_EQ(scene::surface_at(*frame.surfaces, 1, 1)->material, 1);
   picture.rotation = rotation_xyz({kPi, 0, 0});
   frame = test::render(scene, picture);
   EXPECT_EQ(frame.colour.rgb(1, 1), Vec3f(1, 1, 1));
-  EXPECT_EQ(surface_at(frame, 1, 1)->material, 0);
+  EXPECT_EQ(scene::surface_at(*frame.surfaces, 1, 1)->material, 0);
 }
 
 TEST(Aov, VectorsAreInViewSpaceWithTheTopRowUp) {
-  Picture picture{.width = 64, .height = 64};
-  picture.camera.kind = Camera::Kind::view_space;
-  const Frame frame = test::render(white(test::sphere(256, 128)), picture);
-  const Image normal = aov(frame, "normal");
-  const Image position = aov(frame, "position");
-  const Image mask = aov(frame, "mask");
-  const Image uv = aov(frame, "uv");
+  test::Shot picture{.width = 64, .height = 64};
+  picture.camera.kind = scene::Camera::Kind::view_space;
+  const render::Picture frame = test::render(white(test::sphere(256, 128)), picture);
+  const Image normal = scene::aov(*frame.surfaces, "normal");
+  const Image position = scene::aov(*frame.surfaces, "position");
+  const Image mask = scene::aov(*frame.surfaces, "mask");
+  const Image uv = scene::aov(*frame.surfaces, "uv");
   EXPECT_GT(normal.at(32, 3, 1), 0.8);
   EXPECT_LT(normal.at(3, 32, 0), -0.8);
   EXPECT_EQ(mask.at(0, 0, 0), 0);
@@ -165,12 +168,12 @@ TEST(Aov, VectorsAreInViewSpaceWithTheTopRowUp) {
       EXPECT_LT((normal.rgb(x, y) - position.rgb(x, y).normalized()).norm(), 0.02);
     }
   }
-  EXPECT_THROW(aov(frame, "colour"), Error);
+  EXPECT_THROW(scene::aov(*frame.surfaces, "colour"), Error);
 }
 
 TEST(Renderer, SaysWhatTheMeshLacks) {
   test::context();
-  Scene scene = white(test::sphere());
+  scene::Scene scene = white(test::sphere());
   scene.mesh.normals.clear();
   EXPECT_THROW(Renderer{scene}, Error);
   scene = white(test::sphere());
@@ -183,4 +186,4 @@ TEST(Renderer, SaysWhatTheMeshLacks) {
 }
 
 }  // namespace
-}  // namespace sateen
+}  // namespace sateen::render

@@ -38,8 +38,8 @@ Image photograph(int size, Colour colour, float background = 0) {
 }
 
 /// A full turn of `count` photographs with equal steps.
-inline std::vector<AmcFrame> analytic_frames(int size, int count, int symmetry) {
-  std::vector<AmcFrame> frames;
+inline std::vector<amc::AmcFrame> analytic_frames(int size, int count, int symmetry) {
+  std::vector<amc::AmcFrame> frames;
   for (int i = 0; i < count; ++i) {
     const double k = static_cast<double>(i) / count;
     frames.push_back({photograph(size, [&](const Vec3& n) { return analytic_colour(n, k, symmetry); }), k});
@@ -48,8 +48,8 @@ inline std::vector<AmcFrame> analytic_frames(int size, int count, int symmetry) 
 }
 
 /// The table that samples the material exactly at texel centres (beyond the disc: at the rim).
-inline AmcTable analytic_table(int size, int slices, int symmetry) {
-  AmcTable table(size, slices, symmetry);
+inline amc::AmcTable analytic_table(int size, int slices, int symmetry) {
+  amc::AmcTable table(size, slices, symmetry);
   for (int f = 0; f < slices; ++f) {
     for (int y = 0; y < size; ++y) {
       for (int x = 0; x < size; ++x) {

@@ -78,8 +78,8 @@ inline void write_gltf(const std::filesystem::path& path, const GltfTriangle& tr
       accessor(1, 5126, count, "VEC3"), accessor(2, 5126, count, "VEC2"), accessor(3, 5125, 3, "SCALAR"),
       accessor(4, 5126, count, "VEC4"), views, glb ? "" : R"("uri": "buffer.bin", )", binary.size());
   if (!glb) {
-    write_bytes(path.parent_path() / "buffer.bin", binary);
-    write_text(path, json);
+    io::write_bytes(path.parent_path() / "buffer.bin", binary);
+    io::write_text(path, json);
     return;
   }
   while (json.size() % 4 != 0) json += ' ';
@@ -99,7 +99,7 @@ inline void write_gltf(const std::filesystem::path& path, const GltfTriangle& tr
   put(binary.size());
   put(0x004E4942);
   bytes.append(reinterpret_cast<const char*>(binary.data()), binary.size());
-  write_text(path, bytes);
+  io::write_text(path, bytes);
 }
 
 }  // namespace sateen::test

@@ -27,12 +27,12 @@ inline void expect_golden(const Image& picture, const std::string& name,
   namespace fs = std::filesystem;
   const fs::path candidate = fs::path(SATEEN_PROGRAM).parent_path() / "golden-candidates" / (name + ".png");
   fs::create_directories(candidate.parent_path());
-  write_image(candidate, picture);
+  io::write_image(candidate, picture);
   const fs::path golden = source_dir() / "tests" / "golden" / (name + ".png");
   ASSERT_TRUE(fs::exists(golden)) << "no golden picture yet; look at " << candidate << " and copy it to "
                                   << golden;
-  const Image expected = read_data(golden);
-  const Image seen = read_data(candidate);
+  const Image expected = io::read_data(golden);
+  const Image seen = io::read_data(candidate);
   ASSERT_EQ(seen.width, expected.width);
   ASSERT_EQ(seen.height, expected.height);
   ASSERT_EQ(seen.channels, expected.channels);

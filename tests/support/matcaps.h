@@ -19,7 +19,7 @@ inline constexpr std::array<const char*, 5> kMatcaps{"carpaint", "ceramic", "jad
 
 /// A shipped MatCap, shrunk.
 inline Image example_matcap(const std::string& name, int size) {
-  return resized(read_image(examples() / "matcaps" / (name + ".exr")), size, size);
+  return resized(io::read_image(examples() / "matcaps" / (name + ".exr")), size, size);
 }
 
 /// The picture of a sphere that fills it, with `colour` of the unit normal; black off the sphere.

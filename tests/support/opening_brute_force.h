@@ -17,12 +17,12 @@ struct SpherePixels {
   std::vector<float> x, y, z;
 };
 
-inline SpherePixels sphere_pixels(int width, int height, const Disc& disc) {
+inline SpherePixels sphere_pixels(int width, int height, const matcap::Disc& disc) {
   SpherePixels result;
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {
-      if (!on_disc(disc, x, y)) continue;
-      const Vec2 p = disc_point(disc, x + 0.5, y + 0.5);
+      if (!matcap::on_disc(disc, x, y)) continue;
+      const Vec2 p = matcap::disc_point(disc, x + 0.5, y + 0.5);
       result.pixel.push_back(static_cast<std::size_t>(y * width + x));
       result.x.push_back(static_cast<float>(p.x()));
       result.y.push_back(static_cast<float>(p.y()));
@@ -65,7 +65,7 @@ support_brute_force(const SpherePixels& directions, const std::vector<float>& px
 /// The definition of cosine_opening (matcap/separation.h) by comparing all pairs of pixels.
 inline std::vector<float> opening_brute_force(const std::vector<float>& values,
                                               const std::vector<char>& ignored, int width, int height,
-                                              const Disc& disc) {
+                                              const matcap::Disc& disc) {
   const SpherePixels pixels = sphere_pixels(width, height, disc);
   std::vector<float> x, y, z;
   const auto clear = [&] {

@@ -21,9 +21,9 @@ inline const gpu::Context& context() {
   return shared;
 }
 
-inline Scene scene_of(Mesh mesh, std::shared_ptr<const Appearance> appearance,
-                      const RenderSwitches& switches = {}) {
-  Scene scene;
+inline scene::Scene scene_of(Mesh mesh, std::shared_ptr<const appearance::Appearance> appearance,
+                             const scene::RenderSwitches& switches = {}) {
+  scene::Scene scene;
   scene.mesh = std::move(mesh);
   scene.materials.resize(1);
   scene.materials[0].appearance = std::move(appearance);
@@ -31,34 +31,34 @@ inline Scene scene_of(Mesh mesh, std::shared_ptr<const Appearance> appearance,
   return scene;
 }
 
-struct Picture {
+struct Shot {
   int width = 128;
   int height = 128;
-  Camera camera = {};
+  scene::Camera camera = {};
   Mat3 rotation = Mat3::Identity();
   int samples = 1;
   bool surfaces = true;
 };
 
 /// A square picture of a mesh whose coordinates are view space.
-inline Picture in_view_space(int size) {
-  Picture picture;
+inline Shot in_view_space(int size) {
+  Shot picture;
   picture.width = picture.height = size;
-  picture.camera.kind = Camera::Kind::view_space;
+  picture.camera.kind = scene::Camera::Kind::view_space;
   return picture;
 }
 
-inline Frame render(const Scene& scene, const Picture& picture) {
+inline render::Picture render(const scene::Scene& scene, const Shot& picture) {
   context();
   const std::vector<Mat3> rotations{picture.rotation};
-  const View view = frame_object(scene.mesh, picture.camera, rotations,
-                                 static_cast<double>(picture.width) / picture.height)[0];
-  PictureSettings settings;
+  const scene::View view = scene::frame_object(scene.mesh, picture.camera, rotations,
+                                               static_cast<double>(picture.width) / picture.height)[0];
+  render::PictureSettings settings;
   settings.width = picture.width;
   settings.height = picture.height;
   settings.samples = picture.samples;
   settings.surfaces = picture.surfaces;
-  return Renderer(scene).render(view, settings);
+  return render::Renderer(scene).render(view, settings);
 }
 
 /// How two pictures, or a picture and a formula, differ.
@@ -86,12 +86,12 @@ struct Difference {
 
 /// The frame's colour against evaluate() of the surface the pipeline saw, at every covered pixel. The frame
 /// is drawn with one sample and with its surfaces.
-inline Difference against_evaluator(const Frame& frame, const std::vector<Material>& materials,
-                                    double tolerance) {
+inline Difference against_evaluator(const render::Picture& frame,
+                                    const std::vector<scene::Material>& materials, double tolerance) {
   Difference difference;
   for (int y = 0; y < frame.colour.height; ++y) {
     for (int x = 0; x < frame.colour.width; ++x) {
-      const auto surface = surface_at(frame, x, y);
+      const auto surface = scene::surface_at(*frame.surfaces, x, y);
       if (!surface) continue;
       const Vec3 expected =
           materials[static_cast<std::size_t>(surface->material)].appearance->evaluate(*surface);
@@ -104,11 +104,12 @@ inline Difference against_evaluator(const Frame& frame, const std::vector<Materi
 
 /// For a new appearance: renders `mesh` under perspective with it and expects every pixel within `tolerance`
 /// of the C++ evaluator.
-inline void expect_matches_evaluator(const Mesh& mesh, std::shared_ptr<const Appearance> appearance,
-                                     double tolerance, const RenderSwitches& switches = {},
-                                     const Picture& picture = {}) {
-  const Scene scene = scene_of(mesh, std::move(appearance), switches);
-  const Frame frame = render(scene, picture);
+inline void expect_matches_evaluator(const Mesh& mesh,
+                                     std::shared_ptr<const appearance::Appearance> appearance,
+                                     double tolerance, const scene::RenderSwitches& switches = {},
+                                     const Shot& picture = {}) {
+  const scene::Scene scene = scene_of(mesh, std::move(appearance), switches);
+  const render::Picture frame = render(scene, picture);
   const Difference difference = against_evaluator(frame, scene.materials, tolerance);
   EXPECT_GT(difference.pixels, frame.colour.width * frame.colour.height / 10);
   EXPECT_EQ(difference.failing, 0) << "largest difference " << difference.largest << " at pixel ("

@@ -8,8 +8,8 @@ namespace sateen::test {
 
 /// A table filled in full from `colour(normal, k)`, corners included.
 template <class Colour>
-AmcTable table_of(int size, int slices, int symmetry, Colour colour) {
-  AmcTable table(size, slices, symmetry);
+amc::AmcTable table_of(int size, int slices, int symmetry, Colour colour) {
+  amc::AmcTable table(size, slices, symmetry);
   for (int f = 0; f < slices; ++f) {
     for (int y = 0; y < size; ++y) {
       for (int x = 0; x < size; ++x) {

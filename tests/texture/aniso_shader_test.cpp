@@ -13,7 +13,7 @@
 #include "sateen/gpu/texture.h"
 #include "sateen/texture/anisotropy.h"
 
-namespace sateen {
+namespace sateen::texture {
 namespace {
 
 constexpr int kSize = 64;
@@ -73,7 +73,8 @@ TEST(AnisoShader, DecodesAsTheReferenceDoes) {
         const Vec3 c =
             x < kSize / 2
                 ? encode_anisotropy(
-                      roughness_matrix({alpha(generator), alpha(generator), 7 * alpha(generator)}), encoding)
+                      brdf::roughness_matrix({alpha(generator), alpha(generator), 7 * alpha(generator)}),
+                      encoding)
                 : Vec3(value(generator), value(generator), value(generator));
         for (int k = 0; k < 3; ++k) input.at(x, y, k) = static_cast<float>(c[k]);
       }
@@ -83,7 +84,8 @@ TEST(AnisoShader, DecodesAsTheReferenceDoes) {
     for (int y = 0; y < kSize; ++y) {
       for (int x = 0; x < kSize; ++x) {
         const Vec3 c(input.at(x, y, 0), input.at(x, y, 1), input.at(x, y, 2));
-        const AnisotropicRoughness expected = roughness_from_matrix(decode_anisotropy(c, encoding));
+        const brdf::AnisotropicRoughness expected =
+            brdf::roughness_from_matrix(decode_anisotropy(c, encoding));
         const auto got = out.pixel(x, y);
         ASSERT_NEAR(got[0], expected.alpha_t, 1e-4);
         ASSERT_NEAR(got[1], expected.alpha_b, 2e-3);
@@ -121,4 +123,4 @@ TEST(AnisoShader, FrameIsTheSmallestRotation) {
 }
 
 }  // namespace
-}  // namespace sateen
+}  // namespace sateen::texture

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-namespace sateen {
+namespace sateen::texture {
 namespace {
 
 class Random {
@@ -14,8 +14,8 @@ class Random {
   double operator()(double low = 0, double high = 1) {
     return std::uniform_real_distribution<double>(low, high)(generator_);
   }
-  AnisotropicRoughness lobe() {
-    return {(*this)(kMinimumAlpha, 1), (*this)(kMinimumAlpha, 1), (*this)(-kPi, kPi)};
+  brdf::AnisotropicRoughness lobe() {
+    return {(*this)(brdf::kMinimumAlpha, 1), (*this)(brdf::kMinimumAlpha, 1), (*this)(-kPi, kPi)};
   }
   Vec3 normal() {
     const double z = (*this)(0.01, 1);
@@ -30,16 +30,16 @@ class Random {
 TEST(Anisotropy, MatrixHasTheSquaredAlphasAsEigenvaluesAlongTheAxis) {
   Random random;
   for (int i = 0; i < 200; ++i) {
-    const AnisotropicRoughness lobe = random.lobe();
-    const Mat2 s = roughness_matrix(lobe);
+    const brdf::AnisotropicRoughness lobe = random.lobe();
+    const Mat2 s = brdf::roughness_matrix(lobe);
     const Vec2 axis(std::cos(lobe.azimuth), std::sin(lobe.azimuth));
     const Vec2 across(-axis.y(), axis.x());
     EXPECT_NEAR((s * axis - lobe.alpha_t * lobe.alpha_t * axis).norm(), 0, 1e-12);
     EXPECT_NEAR((s * across - lobe.alpha_b * lobe.alpha_b * across).norm(), 0, 1e-12);
-    const AnisotropicRoughness back = roughness_from_matrix(s);
+    const brdf::AnisotropicRoughness back = brdf::roughness_from_matrix(s);
     EXPECT_NEAR(back.alpha_t, std::max(lobe.alpha_t, lobe.alpha_b), 1e-9);
     EXPECT_NEAR(back.alpha_b, std::min(lobe.alpha_t, lobe.alpha_b), 1e-9);
-    EXPECT_NEAR((roughness_matrix(back) - s).norm(), 0, 1e-9);
+    EXPECT_NEAR((brdf::roughness_matrix(back) - s).norm(), 0, 1e-9);
     EXPECT_GE(back.azimuth, 0);
     EXPECT_LT(back.azimuth, kPi);
   }
@@ -49,7 +49,7 @@ TEST(Anisotropy, BothEncodingsReturnTheMatrixAndStayInRange) {
   Random random;
   for (const auto encoding : {AnisotropyEncoding::correlation, AnisotropyEncoding::root}) {
     for (int i = 0; i < 500; ++i) {
-      const Mat2 s = roughness_matrix(random.lobe());
+      const Mat2 s = brdf::roughness_matrix(random.lobe());
       const Vec3 channels = encode_anisotropy(s, encoding);
       EXPECT_GE(channels.minCoeff(), 0);
       EXPECT_LE(channels.maxCoeff(), 1);
@@ -60,7 +60,7 @@ TEST(Anisotropy, BothEncodingsReturnTheMatrixAndStayInRange) {
 }
 
 TEST(Anisotropy, EncodingsAreThePublishedFormulas) {
-  const Mat2 s = roughness_matrix({0.6, 0.2, 0.7});
+  const Mat2 s = brdf::roughness_matrix({0.6, 0.2, 0.7});
   const Vec3 slides = encode_anisotropy(s, AnisotropyEncoding::correlation);
   EXPECT_NEAR(slides[0], std::sqrt(s(0, 0)), 1e-12);
   EXPECT_NEAR(slides[1], 0.5 * s(0, 1) / std::sqrt(s(0, 0) * s(1, 1)) + 0.5, 1e-12);
@@ -78,11 +78,11 @@ TEST(Anisotropy, AnyChannelsDecodeToAGuardedLobe) {
     for (int i = 0; i < 2000; ++i) {
       const Vec3 channels(random(-0.1, 1.1), random(-0.1, 1.1), random(-0.1, 1.1));
       const Mat2 s = decode_anisotropy(channels, encoding);
-      const AnisotropicRoughness lobe = roughness_from_matrix(s);
-      EXPECT_GE(lobe.alpha_b, kMinimumAlpha);
+      const brdf::AnisotropicRoughness lobe = brdf::roughness_from_matrix(s);
+      EXPECT_GE(lobe.alpha_b, brdf::kMinimumAlpha);
       EXPECT_LE(lobe.alpha_t, 1);
       EXPECT_GE(lobe.alpha_t, lobe.alpha_b);
-      EXPECT_NEAR((guarded(s) - roughness_matrix(lobe)).norm(), 0, 1e-7);
+      EXPECT_NEAR((guarded(s) - brdf::roughness_matrix(lobe)).norm(), 0, 1e-7);
     }
   }
 }
@@ -90,11 +90,12 @@ TEST(Anisotropy, AnyChannelsDecodeToAGuardedLobe) {
 TEST(Anisotropy, TheRootOfInterpolatedLobesIsAlwaysPositive) {
   Random random;
   for (int i = 0; i < 1000; ++i) {
-    const Vec3 a = encode_anisotropy(roughness_matrix(random.lobe()), AnisotropyEncoding::root);
-    const Vec3 b = encode_anisotropy(roughness_matrix(random.lobe()), AnisotropyEncoding::root);
+    const Vec3 a = encode_anisotropy(brdf::roughness_matrix(random.lobe()), AnisotropyEncoding::root);
+    const Vec3 b = encode_anisotropy(brdf::roughness_matrix(random.lobe()), AnisotropyEncoding::root);
     const double t = random();
     const Mat2 s = decode_anisotropy((1 - t) * a + t * b, AnisotropyEncoding::root);
-    EXPECT_GE(Eigen::SelfAdjointEigenSolver<Mat2>(s).eigenvalues()[0], 0.999 * kMinimumAlpha * kMinimumAlpha);
+    EXPECT_GE(Eigen::SelfAdjointEigenSolver<Mat2>(s).eigenvalues()[0],
+              0.999 * brdf::kMinimumAlpha * brdf::kMinimumAlpha);
   }
 }
 
@@ -111,11 +112,11 @@ TEST(Sggx, TexelGoesInAndComesOut) {
   Random random;
   for (int i = 0; i < 500; ++i) {
     const Vec3 n = random.normal();
-    AnisotropicRoughness lobe{random(0.01, 0.7), random(0.01, 0.7), random(0, kPi)};
-    const Mat3 s = sroughness_matrix(n, roughness_matrix(lobe));
+    brdf::AnisotropicRoughness lobe{random(0.01, 0.7), random(0.01, 0.7), random(0, kPi)};
+    const Mat3 s = sroughness_matrix(n, brdf::roughness_matrix(lobe));
     const Vec3 axis = principal_axis(s, n);
     EXPECT_NEAR((axis - n).norm(), 0, 1e-7);
-    EXPECT_NEAR((tangent_part(s, n) - roughness_matrix(lobe)).norm(), 0, 1e-9);
+    EXPECT_NEAR((tangent_part(s, n) - brdf::roughness_matrix(lobe)).norm(), 0, 1e-9);
   }
 }
 
@@ -145,7 +146,7 @@ TEST(Sggx, MeetingEigenvaluesGiveTheMeanNormal) {
   // Opposing normals 47 degrees to either side, one a little more often: the largest axis lies in the
   // surface, and power iteration finds it.
   const double a = radians(47);
-  const Mat2 sharp = roughness_matrix({0.05, 0.05, 0});
+  const Mat2 sharp = brdf::roughness_matrix({0.05, 0.05, 0});
   const Vec3 left(-std::sin(a), 0, std::cos(a));
   const Vec3 right(std::sin(a), 0, std::cos(a));
   const Mat3 s = 0.48 * sroughness_matrix(left, sharp) + 0.52 * sroughness_matrix(right, sharp);
@@ -155,4 +156,4 @@ TEST(Sggx, MeetingEigenvaluesGiveTheMeanNormal) {
 }
 
 }  // namespace
-}  // namespace sateen
+}  // namespace sateen::texture

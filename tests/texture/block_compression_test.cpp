@@ -10,7 +10,7 @@
 #include "support/files.h"
 #include "texture/dds.h"
 
-namespace sateen {
+namespace sateen::texture {
 namespace {
 
 using Pixels = std::vector<std::uint8_t>;
@@ -164,4 +164,4 @@ TEST(CompressBlocks, SizesThatAreNoMultipleOfFour) {
 }
 
 }  // namespace
-}  // namespace sateen
+}  // namespace sateen::texture

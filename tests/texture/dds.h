@@ -16,7 +16,7 @@
 namespace sateen::test {
 
 /// Decodes blocks with OpenImageIO, an implementation that is not ours, by way of a DDS file: RGBA, 8 bits.
-inline std::vector<std::uint8_t> decode_blocks(BlockFormat format, std::span<const std::byte> blocks,
+inline std::vector<std::uint8_t> decode_blocks(texture::BlockFormat format, std::span<const std::byte> blocks,
                                                int width, int height, const std::filesystem::path& file) {
   std::vector<std::uint32_t> header(32);  // magic and the 124 bytes of DDS_HEADER
   header[0] = 0x20534444;                 // "DDS "
@@ -28,17 +28,17 @@ inline std::vector<std::uint8_t> decode_blocks(BlockFormat format, std::span<con
   header[19] = 32;
   header[20] = 0x4;     // the code says what it is
   header[27] = 0x1000;  // a texture
-  if (format == BlockFormat::bc1 || format == BlockFormat::bc3) {
-    header[21] = format == BlockFormat::bc1 ? 0x31545844 : 0x35545844;  // "DXT1", "DXT5"
+  if (format == texture::BlockFormat::bc1 || format == texture::BlockFormat::bc3) {
+    header[21] = format == texture::BlockFormat::bc1 ? 0x31545844 : 0x35545844;  // "DXT1", "DXT5"
   } else {
     header[21] = 0x30315844;  // "DX10": DXGI format BC5 or BC7 UNORM; 2D; one of them
-    for (const std::uint32_t v : {format == BlockFormat::bc5 ? 83u : 98u, 3u, 0u, 1u, 0u})
+    for (const std::uint32_t v : {format == texture::BlockFormat::bc5 ? 83u : 98u, 3u, 0u, 1u, 0u})
       header.push_back(v);
   }
   std::vector<std::byte> bytes(header.size() * 4 + blocks.size());
   std::memcpy(bytes.data(), header.data(), header.size() * 4);
   std::memcpy(bytes.data() + header.size() * 4, blocks.data(), blocks.size());
-  write_bytes(file, bytes);
+  io::write_bytes(file, bytes);
 
   const auto input = OIIO::ImageInput::open(file.string());
   if (!input) return {};

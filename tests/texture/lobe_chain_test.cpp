@@ -9,7 +9,7 @@
 #include "sateen/core/parallel.h"
 #include "texture/lobe_radiance.h"
 
-namespace sateen {
+namespace sateen::texture {
 namespace {
 
 constexpr FilterMethod kMethods[] = {FilterMethod::sggx, FilterMethod::sggx_variance, FilterMethod::lean,
@@ -66,7 +66,7 @@ LobeTexel weave(int x, int y) {
   const double along = ((over ? x : y) % period + 0.5) / period * 2 - 1;
   Vec3 n(0.5 * along, 0.8 * across, 1);
   if (!over) std::swap(n.x(), n.y());
-  return {n.normalized(), roughness_matrix({0.3, 0.1, over ? kPi / 2 : 0})};
+  return {n.normalized(), brdf::roughness_matrix({0.3, 0.1, over ? kPi / 2 : 0})};
 }
 
 double mean_error(FilterMethod method) {
@@ -88,7 +88,7 @@ double mean_error(FilterMethod method) {
 }
 
 TEST(LobeChain, FlatConstantMapsStayWhatTheyAre) {
-  const LobeTexel texel{{0, 0, 1}, roughness_matrix({0.4, 0.15, 0.6})};
+  const LobeTexel texel{{0, 0, 1}, brdf::roughness_matrix({0.4, 0.15, 0.6})};
   for (const FilterMethod method : kMethods) {
     for (const MipKernel kernel : {MipKernel::box, MipKernel::kaiser}) {
       Collected sink = chain(Texels(20, 12, [&](int, int) { return texel; }), options_for(method, kernel));
@@ -112,7 +112,7 @@ TEST(LobeChain, SlopeVarianceAddsOnceOrTwice) {
   const double m = 0.1;
   const double alpha = 0.2;
   const auto ridges = [&](int x, int) {
-    return LobeTexel{Vec3(x % 2 == 0 ? m : -m, 0, 1).normalized(), roughness_matrix({alpha, alpha, 0})};
+    return LobeTexel{Vec3(x % 2 == 0 ? m : -m, 0, 1).normalized(), brdf::roughness_matrix({alpha, alpha, 0})};
   };
   const auto at_level_1 = [&](FilterMethod method) {
     return chain(Texels(8, 8, ridges), options_for(method)).at(1, 0, 0);
@@ -167,7 +167,7 @@ TEST(LobeChain, OppositeSteepNormalsStayUpright) {
   const auto saw = [](int x, int y) {
     const double a = radians(60);
     const double side = (x + y) % 2 == 0 ? 1 : -1;
-    return LobeTexel{Vec3(side * std::sin(a), 0, std::cos(a)), roughness_matrix({0.05, 0.05, 0})};
+    return LobeTexel{Vec3(side * std::sin(a), 0, std::cos(a)), brdf::roughness_matrix({0.05, 0.05, 0})};
   };
   for (const FilterMethod method : kMethods) {
     Collected sink = chain(Texels(8, 8, saw), options_for(method));
@@ -175,8 +175,8 @@ TEST(LobeChain, OppositeSteepNormalsStayUpright) {
       const LobeTexel& t = sink.at(level, 0, 0);
       EXPECT_GT(t.normal.z(), 0);
       EXPECT_TRUE(t.s.allFinite());
-      EXPECT_LE(roughness_from_matrix(t.s).alpha_t, 1);
-      EXPECT_GT(roughness_from_matrix(t.s).alpha_b, 0);
+      EXPECT_LE(brdf::roughness_from_matrix(t.s).alpha_t, 1);
+      EXPECT_GT(brdf::roughness_from_matrix(t.s).alpha_b, 0);
     }
   }
 }
@@ -256,4 +256,4 @@ TEST(LobeChain, StopsAtTheLevelsAskedFor) {
 }
 
 }  // namespace
-}  // namespace sateen
+}  // namespace sateen::texture

@@ -13,7 +13,7 @@
 #include "support/files.h"
 #include "texture/dds.h"
 
-namespace sateen {
+namespace sateen::texture {
 namespace {
 
 using test::TemporaryFolder;
@@ -37,7 +37,7 @@ Image lobes(int width, int height, AnisotropyEncoding encoding = AnisotropyEncod
   Image image(width, height, 3);
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {
-      const Vec3 c = encode_anisotropy(roughness_matrix({0.4, 0.1, 0.1 * x + 0.05 * y}), encoding);
+      const Vec3 c = encode_anisotropy(brdf::roughness_matrix({0.4, 0.1, 0.1 * x + 0.05 * y}), encoding);
       for (int k = 0; k < 3; ++k) image.at(x, y, k) = static_cast<float>(c[k]);
     }
   }
@@ -97,9 +97,9 @@ TEST(DecodeNormal, MendsWhatHasNoDirection) {
 
 TEST(LobeFiles, BadInputIsNamed) {
   const TemporaryFolder folder;
-  write_data(folder / "normal.png", bumps(16, 8));
-  write_data(folder / "small.png", lobes(8, 8));
-  write_data(folder / "grey.png", Image(16, 8, 1, 0.5f));
+  io::write_data(folder / "normal.png", bumps(16, 8));
+  io::write_data(folder / "small.png", lobes(8, 8));
+  io::write_data(folder / "grey.png", Image(16, 8, 1, 0.5f));
   const auto open = [&](LobeMapFiles files) { return message_of([&] { LobeFileSource source(files); }); };
   EXPECT_THAT(open({}), HasSubstr("nothing to filter"));
   EXPECT_THAT(open(maps_of(folder / "none.png")), HasSubstr("none.png"));
@@ -113,7 +113,7 @@ TEST(LobeFiles, BadInputIsNamed) {
 
 TEST(LobeFiles, DamagedInputLeavesNothing) {
   const TemporaryFolder folder;
-  write_data(folder / "normal.png", bumps(64, 64));
+  io::write_data(folder / "normal.png", bumps(64, 64));
   fs::resize_file(folder / "normal.png", fs::file_size(folder / "normal.png") / 2);
   for (const LobeOutput::Kind kind : {LobeOutput::Kind::png, LobeOutput::Kind::ktx2_blocks}) {
     LobeOutput output;
@@ -129,8 +129,8 @@ TEST(LobeFiles, DamagedInputLeavesNothing) {
 
 TEST(LobeFiles, PicturesHoldEveryLevelOfOddSizes) {
   const TemporaryFolder folder;
-  write_data(folder / "normal.png", bumps(21, 13));
-  write_data(folder / "aniso.png", lobes(21, 13));
+  io::write_data(folder / "normal.png", bumps(21, 13));
+  io::write_data(folder / "aniso.png", lobes(21, 13));
   for (const LobeOutput::Kind kind : {LobeOutput::Kind::png, LobeOutput::Kind::png8, LobeOutput::Kind::exr}) {
     LobeFileSource source(maps_of(folder / "normal.png", folder / "aniso.png"));
     LobeOutput output;
@@ -138,8 +138,8 @@ TEST(LobeFiles, PicturesHoldEveryLevelOfOddSizes) {
     const auto files = write_lobe_chain(source, folder / "mip.png", {}, output);
     ASSERT_EQ(files.size(), 10u);
     EXPECT_EQ(source.repaired(), 0u);
-    const Image first = read_data(files[0]);
-    const Image aniso = read_data(files[1]);
+    const Image first = io::read_data(files[0]);
+    const Image aniso = io::read_data(files[1]);
     const Image expected = bumps(21, 13);
     const float tolerance = kind == LobeOutput::Kind::png ? 1e-4f : 4e-3f;
     for (std::size_t i = 0; i < expected.data.size(); ++i) {
@@ -147,16 +147,16 @@ TEST(LobeFiles, PicturesHoldEveryLevelOfOddSizes) {
       ASSERT_NEAR(stored, expected.data[i], tolerance);
       ASSERT_NEAR(aniso.data[i], lobes(21, 13).data[i], tolerance);
     }
-    EXPECT_EQ(read_image_info(files[4]).width, 5);
-    EXPECT_EQ(read_image_info(files[4]).height, 3);
-    EXPECT_EQ(read_image_info(files[9]).width, 1);
+    EXPECT_EQ(io::read_image_info(files[4]).width, 5);
+    EXPECT_EQ(io::read_image_info(files[4]).height, 3);
+    EXPECT_EQ(io::read_image_info(files[9]).width, 1);
   }
 }
 
 TEST(LobeFiles, Ktx2HoldsTheSameValuesAsPictures) {
   const TemporaryFolder folder;
-  write_data(folder / "normal.png", bumps(32, 24));
-  write_data(folder / "aniso.png", lobes(32, 24));
+  io::write_data(folder / "normal.png", bumps(32, 24));
+  io::write_data(folder / "aniso.png", lobes(32, 24));
   const LobeMapFiles maps = maps_of(folder / "normal.png", folder / "aniso.png");
   LobeFileSource for_pictures(maps);
   LobeOutput output;
@@ -172,14 +172,14 @@ TEST(LobeFiles, Ktx2HoldsTheSameValuesAsPictures) {
   LobeFileSource for_blocks(maps);
   const auto blocks = write_lobe_chain(for_blocks, folder / "blocks.ktx2", chain, output);
 
-  const Ktx2 normal = read_ktx2(plain[0]);
-  const Ktx2 aniso = read_ktx2(plain[1]);
-  EXPECT_EQ(normal.format, VkFormat::rg8_unorm);
+  const io::Ktx2 normal = io::read_ktx2(plain[0]);
+  const io::Ktx2 aniso = io::read_ktx2(plain[1]);
+  EXPECT_EQ(normal.format, io::VkFormat::rg8_unorm);
   EXPECT_EQ(aniso.metadata.at("SateenAnisotropy"), "root");
   ASSERT_EQ(normal.levels.size(), 6u);
   for (std::size_t level = 0; level < 6; ++level) {
-    const Image n = read_data(pictures[level * 2]);
-    const Image a = read_data(pictures[level * 2 + 1]);
+    const Image n = io::read_data(pictures[level * 2]);
+    const Image a = io::read_data(pictures[level * 2 + 1]);
     for (int i = 0; i < n.width * n.height; ++i) {
       for (int c = 0; c < 2; ++c) {
         ASSERT_NEAR(std::to_integer<int>(normal.levels[level][static_cast<std::size_t>(i * 2 + c)]),
@@ -191,9 +191,9 @@ TEST(LobeFiles, Ktx2HoldsTheSameValuesAsPictures) {
       }
     }
   }
-  EXPECT_EQ(read_ktx2(blocks[0]).format, VkFormat::bc5_unorm);
-  const Ktx2 bc7 = read_ktx2(blocks[1]);
-  EXPECT_EQ(bc7.format, VkFormat::bc7_unorm);
+  EXPECT_EQ(io::read_ktx2(blocks[0]).format, io::VkFormat::bc5_unorm);
+  const io::Ktx2 bc7 = io::read_ktx2(blocks[1]);
+  EXPECT_EQ(bc7.format, io::VkFormat::bc7_unorm);
   const auto texels = test::decode_blocks(BlockFormat::bc7, bc7.levels[0], 32, 24, folder / "level.dds");
   double sum = 0;
   for (std::size_t i = 0; i < texels.size(); ++i) {
@@ -205,18 +205,18 @@ TEST(LobeFiles, Ktx2HoldsTheSameValuesAsPictures) {
 
 TEST(LobeFiles, RoughnessMapsAndConstantsMayReplaceTheAnisotropyMap) {
   const TemporaryFolder folder;
-  write_data(folder / "rough.png", Image(8, 8, 1, 0.5f));
+  io::write_data(folder / "rough.png", Image(8, 8, 1, 0.5f));
   std::vector<LobeTexel> texels(64);
   LobeFileSource rough(maps_of({}, {}, folder / "rough.png"));
   rough.read(texels);
-  EXPECT_NEAR(roughness_from_matrix(texels[5].s).alpha_t, 0.25, 1e-4);
+  EXPECT_NEAR(brdf::roughness_from_matrix(texels[5].s).alpha_t, 0.25, 1e-4);
   EXPECT_EQ(texels[5].normal, Vec3::UnitZ());
-  write_data(folder / "normal.png", bumps(8, 8));
+  io::write_data(folder / "normal.png", bumps(8, 8));
   LobeMapFiles files = maps_of(folder / "normal.png");
   files.constant = {0.3, 0.2, 0.5};
   LobeFileSource constant(files);
   constant.read(texels);
-  EXPECT_NEAR(roughness_from_matrix(texels[9].s).alpha_b, 0.2, 1e-9);
+  EXPECT_NEAR(brdf::roughness_from_matrix(texels[9].s).alpha_b, 0.2, 1e-9);
 }
 
 TEST(Author, ConstantsAndMapsMeet) {
@@ -225,28 +225,28 @@ TEST(Author, ConstantsAndMapsMeet) {
   for (int x = 0; x < 6; ++x) {
     for (int y = 0; y < 3; ++y) rotation.at(x, y, 0) = static_cast<float>(x) / 6;
   }
-  write_data(folder / "rotation.png", rotation);
+  io::write_data(folder / "rotation.png", rotation);
   AuthorInputs in;
   in.along = parse_map_input("0.6");
   in.across = parse_map_input("0.3");
   in.rotation = parse_map_input((folder / "rotation.png").string() + ":r");
   for (const auto encoding : {AnisotropyEncoding::root, AnisotropyEncoding::correlation}) {
     author_anisotropy(in, folder / "aniso.png", encoding);
-    const Image map = read_data(folder / "aniso.png");
+    const Image map = io::read_data(folder / "aniso.png");
     ASSERT_EQ(map.width, 6);
     for (int x = 0; x < 6; ++x) {
       const Mat2 s = decode_anisotropy({map.at(x, 1, 0), map.at(x, 1, 1), map.at(x, 1, 2)}, encoding);
-      EXPECT_NEAR((s - roughness_matrix({0.36, 0.09, 2 * kPi * x / 6})).norm(), 0, 2e-4);
+      EXPECT_NEAR((s - brdf::roughness_matrix({0.36, 0.09, 2 * kPi * x / 6})).norm(), 0, 2e-4);
     }
   }
 }
 
 TEST(Author, EveryStyleComesBackThroughDecode) {
   const TemporaryFolder folder;
-  write_data(folder / "aniso.exr", lobes(9, 5));
+  io::write_data(folder / "aniso.exr", lobes(9, 5));
   const auto check = [&](AuthorInputs in) {
     author_anisotropy(in, folder / "again.exr", AnisotropyEncoding::root);
-    const Image again = read_data(folder / "again.exr");
+    const Image again = io::read_data(folder / "again.exr");
     const Image expected = lobes(9, 5);
     for (std::size_t i = 0; i < expected.data.size(); ++i) ASSERT_NEAR(again.data[i], expected.data[i], 1e-4);
   };
@@ -281,8 +281,8 @@ TEST(Author, EveryStyleComesBackThroughDecode) {
 
 TEST(Author, BadInputIsNamed) {
   const TemporaryFolder folder;
-  write_data(folder / "a.png", Image(8, 8, 1, 0.5f));
-  write_data(folder / "b.png", Image(8, 4, 1, 0.5f));
+  io::write_data(folder / "a.png", Image(8, 8, 1, 0.5f));
+  io::write_data(folder / "b.png", Image(8, 4, 1, 0.5f));
   AuthorInputs in;
   in.along = {folder / "a.png", 0, 0};
   in.across = {folder / "b.png", 0, 0};
@@ -298,4 +298,4 @@ TEST(Author, BadInputIsNamed) {
 }
 
 }  // namespace
-}  // namespace sateen
+}  // namespace sateen::texture

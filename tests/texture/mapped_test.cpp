@@ -8,7 +8,7 @@
 #include "sateen/core/direction.h"
 #include "sateen/core/error.h"
 #include "sateen/io/image.h"
-#include "sateen/render/registry.h"
+#include "sateen/scene/registry.h"
 #include "sateen/texture/lobe_files.h"
 #include "sateen/texture/mapped_appearance.h"
 #include "support/files.h"
@@ -16,26 +16,26 @@
 #include "support/shapes.h"
 #include "support/sky.h"
 
-namespace sateen {
+namespace sateen::texture {
 namespace {
 
 using testing::HasSubstr;
 
 constexpr double kTolerance = 5e-3;
 
-Lighting lamps() {
-  Lighting lighting;
-  PunctualLight key;
+brdf::Lighting lamps() {
+  brdf::Lighting lighting;
+  light::PunctualLight key;
   key.direction = Vec3(-0.3, 0.4, 0.8).normalized();
-  PunctualLight point;
-  point.kind = PunctualLight::Kind::point;
+  light::PunctualLight point;
+  point.kind = light::PunctualLight::Kind::point;
   point.position = {1, 0.5, -2};
   point.colour = {2, 3, 4};
   lighting.lights = {key, point};
   return lighting;
 }
 
-Lighting surroundings() {
+brdf::Lighting surroundings() {
   Image sky(64, 32, 3);
   for (int y = 0; y < sky.height; ++y) {
     for (int x = 0; x < sky.width; ++x) {
@@ -44,16 +44,16 @@ Lighting surroundings() {
           Vec3f(0.6f + 0.4f * std::sin(0.2f * static_cast<float>(x)), 0.5f, 1 - static_cast<float>(y) / 32));
     }
   }
-  Lighting lighting = lamps();
+  brdf::Lighting lighting = lamps();
   lighting.set_environment(sky);
   return lighting;
 }
 
-std::shared_ptr<const MappedAppearance> mapped(MappedAppearance::Maps maps, Lighting lighting) {
-  LayeredMaterial base;
+std::shared_ptr<const MappedAppearance> mapped(MappedAppearance::Maps maps, brdf::Lighting lighting) {
+  brdf::LayeredMaterial base;
   base.base_colour = {0.2, 0.15, 0.1};
   return std::make_shared<const MappedAppearance>(
-      std::move(maps), std::make_unique<LayeredAppearance>(std::move(base), std::move(lighting)));
+      std::move(maps), std::make_unique<brdf::LayeredAppearance>(std::move(base), std::move(lighting)));
 }
 
 /// Unrelated lobes and normals side by side; with `any` the channels are no lobes at all, as damaged maps
@@ -72,7 +72,7 @@ MappedAppearance::Maps adversarial(AnisotropyEncoding encoding, bool any) {
       const double a = between(0, 2 * kPi);
       // Thin lobes across each other make the interpolated correlation non-positive or larger than 1.
       const Vec3 c = any ? Vec3(value(random), value(random), value(random))
-                         : encode_anisotropy(roughness_matrix({between(0.5, 1), 0.15, a}), encoding);
+                         : encode_anisotropy(brdf::roughness_matrix({between(0.5, 1), 0.15, a}), encoding);
       for (int k = 0; k < 2; ++k) normals.at(x, y, k) = static_cast<float>(between(0.3, 0.7));
       for (int k = 0; k < 3; ++k) lobes.at(x, y, k) = static_cast<float>(c[k]);
     }
@@ -93,8 +93,9 @@ TEST(MappedOnGpu, BadMatricesAreGuardedAsInTheEvaluator) {
   // or larger than 1. At the smallest alphas the highlight is a matter of the last digits, hence the share.
   for (const auto encoding : {AnisotropyEncoding::root, AnisotropyEncoding::correlation}) {
     for (const bool any : {false, true}) {
-      const Scene scene = test::scene_of(test::plane(), mapped(adversarial(encoding, any), surroundings()));
-      const Frame frame = test::render(scene, {});
+      const scene::Scene scene =
+          test::scene_of(test::plane(), mapped(adversarial(encoding, any), surroundings()));
+      const render::Picture frame = test::render(scene, {});
       const auto difference = test::against_evaluator(frame, scene.materials, 0.05);
       EXPECT_GT(difference.pixels, 1000);
       EXPECT_LT(difference.failing_share(), 0.01) << name_of(encoding) << any;
@@ -120,8 +121,8 @@ TEST(Mapped, ChannelsInRangeAreNeverNegativeButMayBeSingularOrTooLarge) {
       ASSERT_GE(mean - radius, -1e-12);
       least = std::min(least, mean - radius);
       largest = std::max(largest, mean + radius);
-      const AnisotropicRoughness lobe = roughness_from_matrix(s);
-      ASSERT_GE(lobe.alpha_b, kMinimumAlpha);
+      const brdf::AnisotropicRoughness lobe = brdf::roughness_from_matrix(s);
+      ASSERT_GE(lobe.alpha_b, brdf::kMinimumAlpha);
       ASSERT_LE(lobe.alpha_t, 1);
     }
     EXPECT_LT(least, 1e-6);
@@ -132,18 +133,18 @@ TEST(Mapped, ChannelsInRangeAreNeverNegativeButMayBeSingularOrTooLarge) {
 TEST(Mapped, FlatMapsUnderLampsAreTheLayeredMaterial) {
   MappedAppearance::Maps maps;
   maps.mips.normals = {Image(2, 2, 2, 0.5f)};
-  const Vec3 c = encode_anisotropy(roughness_matrix({0.5, 0.2, 0.7}), AnisotropyEncoding::root);
+  const Vec3 c = encode_anisotropy(brdf::roughness_matrix({0.5, 0.2, 0.7}), AnisotropyEncoding::root);
   Image lobes(2, 2, 3);
   for (int i = 0; i < 12; ++i) lobes.data[static_cast<std::size_t>(i)] = static_cast<float>(c[i % 3]);
   maps.mips.anisotropy = {lobes};
   maps.f0 = {0.5, 0.4, 0.3};
-  LayeredMaterial material;
+  brdf::LayeredMaterial material;
   material.base_colour = {0.2, 0.15, 0.1};
-  material.specular = GgxParameters{{0.5, 0.2, 0.7}, maps.f0, false};
+  material.specular = brdf::GgxParameters{{0.5, 0.2, 0.7}, maps.f0, false};
   const auto a = mapped(maps, lamps());
-  const LayeredAppearance b(material, lamps());
+  const brdf::LayeredAppearance b(material, lamps());
   for (int i = 0; i < 40; ++i) {
-    Surface surface;
+    appearance::Surface surface;
     surface.view = Vec3(0.9 * std::cos(i), 0.9 * std::sin(2.0 * i), 0.6).normalized();
     surface.position = -2 * surface.view;
     const Vec3 expected = b.evaluate(surface);
@@ -152,10 +153,10 @@ TEST(Mapped, FlatMapsUnderLampsAreTheLayeredMaterial) {
 }
 
 /// A map that is the same lobe everywhere on a flat surface.
-MappedAppearance::Maps one_lobe(const AnisotropicRoughness& lobe, const Vec3& f0) {
+MappedAppearance::Maps one_lobe(const brdf::AnisotropicRoughness& lobe, const Vec3& f0) {
   MappedAppearance::Maps maps;
   maps.mips.normals = {Image(1, 1, 2, 0.5f)};
-  const Vec3 c = encode_anisotropy(roughness_matrix(lobe), AnisotropyEncoding::root);
+  const Vec3 c = encode_anisotropy(brdf::roughness_matrix(lobe), AnisotropyEncoding::root);
   Image stored(1, 1, 3);
   stored.set_rgb(0, 0, c.cast<float>());
   maps.mips.anisotropy = {stored};
@@ -168,27 +169,28 @@ TEST(Mapped, UnderASkyIsCloseToTheIntegralOfTheBrdf) {
   // the albedo by table.
   std::mt19937 random(5);
   const Image sky = test::sky();
-  Lighting lighting;
+  brdf::Lighting lighting;
   lighting.set_environment(sky);
   const Vec3 f0(0.9, 0.6, 0.3);
-  for (const AnisotropicRoughness& lobe :
-       {AnisotropicRoughness{0.6, 0.15, 0.4}, AnisotropicRoughness{0.3, 0.3, 0},
-        AnisotropicRoughness{0.4, 0.06, 1.2}}) {
-    LayeredMaterial black;
+  for (const brdf::AnisotropicRoughness& lobe :
+       {brdf::AnisotropicRoughness{0.6, 0.15, 0.4}, brdf::AnisotropicRoughness{0.3, 0.3, 0},
+        brdf::AnisotropicRoughness{0.4, 0.06, 1.2}}) {
+    brdf::LayeredMaterial black;
     black.base_colour = Vec3::Zero();
-    const MappedAppearance maps(one_lobe(lobe, f0), std::make_unique<LayeredAppearance>(black, lighting));
-    black.specular = GgxParameters{lobe, f0, false};
+    const MappedAppearance maps(one_lobe(lobe, f0),
+                                std::make_unique<brdf::LayeredAppearance>(black, lighting));
+    black.specular = brdf::GgxParameters{lobe, f0, false};
     black.lobe_samples = 8;
-    const LayeredAppearance layered(black, lighting);
+    const brdf::LayeredAppearance layered(black, lighting);
     double error = 0;
     double layered_error = 0;
     double between = 0;
     constexpr int kViews = 12;
     for (int i = 0; i < kViews; ++i) {
-      Surface surface;
+      appearance::Surface surface;
       surface.view = test::random_up(random, 0.15);
       const Vec3 exact =
-          test::summed([&](const Vec3& u) { return ggx_brdf(lobe, f0, u, surface.view); }, sky);
+          test::summed([&](const Vec3& u) { return brdf::ggx_brdf(lobe, f0, u, surface.view); }, sky);
       const Vec3 a = maps.evaluate(surface);
       const Vec3 b = layered.evaluate(surface);
       error += (a - exact).norm() / exact.norm() / kViews;
@@ -205,17 +207,17 @@ TEST(Mapped, BumpsSeenFromBehindAreDents) {
   // A Lambert sheet under one lamp: the cosine to the normal that the map gives the front, turned around.
   MappedAppearance::Maps maps = one_lobe({0.5, 0.5, 0}, Vec3::Zero());
   maps.mips.normals[0].data = {0.5f + 0.5f * 0.3f, 0.5f - 0.5f * 0.2f};
-  Lighting lighting;
-  PunctualLight lamp;
+  brdf::Lighting lighting;
+  light::PunctualLight lamp;
   lamp.direction = Vec3(0.5, 0.3, 0.8).normalized();
   lighting.lights = {lamp};
-  LayeredMaterial white;
+  brdf::LayeredMaterial white;
   white.base_colour = Vec3::Ones();
-  const MappedAppearance sheet(std::move(maps), std::make_unique<LayeredAppearance>(white, lighting));
+  const MappedAppearance sheet(std::move(maps), std::make_unique<brdf::LayeredAppearance>(white, lighting));
   // The sheet's front looks away: its tangent and bitangent in view space, and its normal towards -z.
   const Mat3 front = (Mat3() << -Vec3::UnitX(), Vec3::UnitY(), -Vec3::UnitZ()).finished();
   const Vec3 n(0.3, -0.2, std::sqrt(1 - 0.13));
-  Surface surface;
+  appearance::Surface surface;
   surface.normal = surface.mesh_normal = -front.col(2);
   surface.tangent = front.col(0);
   surface.side = -1;
@@ -225,7 +227,7 @@ TEST(Mapped, BumpsSeenFromBehindAreDents) {
   EXPECT_NEAR(sheet.evaluate(surface).x(), expected, 1e-3);
   // On the GPU, both sides of a sheet that is turned away and to the viewer.
   for (const double turn : {0.3, kPi - 0.3}) {
-    test::Picture picture;
+    test::Shot picture;
     picture.rotation = rotation_xyz({0.2, turn, 0});
     test::expect_matches_evaluator(test::plane(),
                                    mapped(adversarial(AnisotropyEncoding::root, false), lamps()), kTolerance,
@@ -243,8 +245,8 @@ TEST(Mapped, AlbedoTableIsCloseToTheIntegral) {
         const double phi = 0.3 * turn;
         const double sine = std::sqrt(1 - cosine * cosine);
         const Vec3 view(sine * std::cos(phi), sine * std::sin(phi), cosine);
-        const GgxAlbedo expected = ggx_albedo({t, b, 0}, view);
-        const GgxAlbedo got = table(t, b, view);
+        const brdf::GgxAlbedo expected = brdf::ggx_albedo({t, b, 0}, view);
+        const brdf::GgxAlbedo got = table(t, b, view);
         worst = std::max({worst, std::abs(got.scale - expected.scale), std::abs(got.bias - expected.bias)});
       }
     }
@@ -256,15 +258,15 @@ TEST(Mapped, HighlightsRunAlongTheLargerAlpha) {
   // Axis at 30 degrees from U towards V: the highlight under the eye's own lamp is long that way on a square.
   MappedAppearance::Maps maps;
   maps.mips.normals = {Image(1, 1, 2, 0.5f)};
-  const Vec3 c = encode_anisotropy(roughness_matrix({0.5, 0.1, radians(30)}), AnisotropyEncoding::root);
+  const Vec3 c = encode_anisotropy(brdf::roughness_matrix({0.5, 0.1, radians(30)}), AnisotropyEncoding::root);
   Image lobe(1, 1, 3);
   for (int k = 0; k < 3; ++k) lobe.at(0, 0, k) = static_cast<float>(c[k]);
   maps.mips.anisotropy = {lobe};
-  Lighting lighting;
-  PunctualLight lamp;
+  brdf::Lighting lighting;
+  light::PunctualLight lamp;
   lamp.direction = Vec3::UnitZ();
   lighting.lights = {lamp};
-  const Frame frame = test::render(test::scene_of(test::plane(), mapped(maps, lighting)), {});
+  const render::Picture frame = test::render(test::scene_of(test::plane(), mapped(maps, lighting)), {});
   Mat2 second = Mat2::Zero();
   const double background = frame.colour.rgb(8, 8).y();
   for (int y = 0; y < 128; ++y) {
@@ -289,7 +291,7 @@ class Weave : public LobeSource {
       const bool over = (x / 8 + y / 8) % 2 == 0;
       const double across = ((over ? y : x) % 8 - 3.5) / 4;
       texel.normal = over ? Vec3(0, -0.7 * across, 1).normalized() : Vec3(0.7 * across, 0, 1).normalized();
-      texel.s = roughness_matrix({0.3, 0.12, over ? kPi / 2 : 0});
+      texel.s = brdf::roughness_matrix({0.3, 0.12, over ? kPi / 2 : 0});
     }
   }
 
@@ -298,7 +300,7 @@ class Weave : public LobeSource {
 };
 
 /// Relative error of a far view of the weave against the mean of 16 x 16 close pixels each.
-double far_view_error(FilterMethod method, const Lighting& lighting) {
+double far_view_error(FilterMethod method, const brdf::Lighting& lighting) {
   ChainOptions options;
   options.filter.method = method;
   Weave source;
@@ -306,9 +308,9 @@ double far_view_error(FilterMethod method, const Lighting& lighting) {
   maps.mips = make_lobe_mips(source, options, AnisotropyEncoding::root);
   maps.repeat = {16, 16};
   maps.f0 = {0.8, 0.8, 0.8};
-  const Scene scene = test::scene_of(test::plane(), mapped(maps, lighting));
+  const scene::Scene scene = test::scene_of(test::plane(), mapped(maps, lighting));
   const auto picture = [&](int size) {
-    test::Picture p;
+    test::Shot p;
     p.width = p.height = size;
     p.surfaces = false;
     return test::render(scene, p).colour;
@@ -376,7 +378,7 @@ TEST(Mapped, MaterialFilesAreReadAndWrongOnesNamed) {
   const auto load = [&](const std::string& text) -> std::string {
     std::ofstream(folder / "m.json") << text;
     try {
-      const auto appearance = load_appearance(folder / "m.json");
+      const auto appearance = scene::load_appearance(folder / "m.json");
       return appearance->evaluate({}).allFinite() ? "" : "not finite";
     } catch (const Error& error) {
       return error.what();
@@ -386,7 +388,7 @@ TEST(Mapped, MaterialFilesAreReadAndWrongOnesNamed) {
   EXPECT_EQ(load(R"({"model": "mapped", "normals": ")" + weave +
                  R"(", "roughness": [0.5, 0.3], "repeat": 4, "f0": 0.6, "base": {"color": 0.1}})"),
             "");
-  write_data(folder / "small.png", Image(8, 8, 3, 0.5f));
+  io::write_data(folder / "small.png", Image(8, 8, 3, 0.5f));
   Weave source;
   write_lobe_chain(source, folder / "w.ktx2", {}, {.kind = LobeOutput::Kind::ktx2_blocks});
   EXPECT_EQ(load(R"({"model": "mapped", "normals": "w_normal.ktx2", "anisotropy": "w_aniso.ktx2"})"), "");
@@ -403,4 +405,4 @@ TEST(Mapped, MaterialFilesAreReadAndWrongOnesNamed) {
 }
 
 }  // namespace
-}  // namespace sateen
+}  // namespace sateen::texture

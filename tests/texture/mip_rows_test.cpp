@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-namespace sateen {
+namespace sateen::texture {
 namespace {
 
 using Row = MipRowFilter::Row;
@@ -177,4 +177,4 @@ TEST(MipRowFilter, HandlesLinesAndSingleTexels) {
 }
 
 }  // namespace
-}  // namespace sateen
+}  // namespace sateen::texture

@@ -6,8 +6,10 @@
 
 int main(int argc, char** argv) {
   if (argc != 2) return 2;
-  sateen::Ktx2 texture{sateen::VkFormat::rgba8_srgb, 2, 2, 2, 0, 1, {}, {}};
-  texture.levels.emplace_back(sateen::ktx2_level_bytes(texture, 0), std::byte{42});
-  sateen::write_ktx2(argv[1], texture);
-  return sateen::read_ktx2(argv[1]).levels == texture.levels && !sateen::image_extensions().empty() ? 0 : 1;
+  sateen::io::Ktx2 texture{sateen::io::VkFormat::rgba8_srgb, 2, 2, 2, 0, 1, {}, {}};
+  texture.levels.emplace_back(sateen::io::ktx2_level_bytes(texture, 0), std::byte{42});
+  sateen::io::write_ktx2(argv[1], texture);
+  return sateen::io::read_ktx2(argv[1]).levels == texture.levels && !sateen::io::image_extensions().empty()
+             ? 0
+             : 1;
 }

@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: MIT
+#include "sateen/appearance/json_reader.h"
+
+#include <cmath>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "sateen/core/error.h"
+#include "sateen/io/file.h"
+
+namespace sateen::appearance {
+
+namespace {
+
+std::string short_dump(const nlohmann::json& value) {
+  std::string text = value.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+  if (text.size() > 60) text = text.substr(0, 57) + "...";
+  return text;
+}
+
+bool three_numbers(const nlohmann::json& value) {
+  return value.is_array() && value.size() == 3 && value[0].is_number() && value[1].is_number() &&
+         value[2].is_number();
+}
+
+Vec3 vector_of(const nlohmann::json& value) {
+  return {value[0].get<double>(), value[1].get<double>(), value[2].get<double>()};
+}
+
+/// The parser recurses: refuse files nested deeper than any of ours before it sees them.
+void check_depth(const std::string& text, const std::string& file) {
+  int depth = 0;
+  bool quoted = false;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    if (quoted) {
+      if (c == '\\') ++i;
+      if (c == '"') quoted = false;
+    } else if (c == '"') {
+      quoted = true;
+    } else if (c == '[' || c == '{') {
+      if (++depth > 64) throw Error(fmt::format("{}: nested more than 64 levels deep", file));
+    } else if (c == ']' || c == '}') {
+      --depth;
+    }
+  }
+}
+
+}  // namespace
+
+nlohmann::json read_json(const std::filesystem::path& path) {
+  const std::string text = io::read_text(path);
+  check_depth(text, path.string());
+  try {
+    return nlohmann::json::parse(text);
+  } catch (const nlohmann::json::parse_error& error) {
+    std::size_t line = 1;
+    const std::size_t end = std::min(error.byte, text.size());
+    for (std::size_t i = 0; i + 1 < end; ++i) line += text[i] == '\n' ? 1 : 0;
+    throw Error(fmt::format("{}: no valid JSON: line {} cannot be read", path.string(), line));
+  } catch (const nlohmann::json::exception&) {
+    throw Error(fmt::format("{}: no valid JSON: a number is out of range", path.string()));
+  }
+}
+
+JsonObject::JsonObject(const nlohmann::json& value, std::string where)
+    : value_(&value), where_(std::move(where)) {
+  if (!value.is_object()) {
+    throw Error(fmt::format("{}: expected an object {{...}}, found {}", where_, short_dump(value)));
+  }
+}
+
+void JsonObject::fail(const std::string& key, const std::string& what) const {
+  const std::string found = value_->contains(key) ? short_dump((*value_)[key]) : "nothing";
+  throw Error(fmt::format("{}: \"{}\" must be {}, found {}", where_, key, what, found));
+}
+
+bool JsonObject::has(const std::string& key) const {
+  return value_->contains(key);
+}
+
+const nlohmann::json& JsonObject::raw(const std::string& key) {
+  known_.insert(key);
+  if (!has(key)) throw Error(fmt::format("{}: \"{}\" is missing", where_, key));
+  return (*value_)[key];
+}
+
+double JsonObject::number(const std::string& key, double fallback, Range range) {
+  known_.insert(key);
+  if (!has(key)) return fallback;
+  const nlohmann::json& value = raw(key);
+  const double x = value.is_number() ? value.get<double>() : std::nan("");
+  const bool inside = (range.low_open ? x > range.low : x >= range.low) &&
+                      (range.high_open ? x < range.high : x <= range.high);
+  if (!inside) {
+    fail(key, fmt::format("a number in {}{}, {}{}", range.low_open ? '(' : '[', range.low, range.high,
+                          range.high_open ? ')' : ']'));
+  }
+  return x;
+}
+
+bool JsonObject::flag(const std::string& key, bool fallback) {
+  known_.insert(key);
+  if (!has(key)) return fallback;
+  if (!raw(key).is_boolean()) fail(key, "true or false");
+  return raw(key).get<bool>();
+}
+
+std::string JsonObject::text(const std::string& key, const std::string& fallback) {
+  known_.insert(key);
+  if (!has(key)) return fallback;
+  if (!raw(key).is_string()) fail(key, "a string");
+  return raw(key).get<std::string>();
+}
+
+std::string JsonObject::choice(const std::string& key, const std::string& fallback,
+                               std::span<const std::string> choices) {
+  const std::string chosen = has(key) && !raw(key).is_string() ? "" : text(key, fallback);
+  for (const std::string& candidate : choices) {
+    if (chosen == candidate) return chosen;
+  }
+  fail(key, fmt::format("one of {}", fmt::join(choices, ", ")));
+}
+
+Vec3 JsonObject::colour(const std::string& key, const Vec3& fallback, double high) {
+  known_.insert(key);
+  if (!has(key)) return fallback;
+  const nlohmann::json& value = raw(key);
+  const std::string expected = fmt::format("[r, g, b] or one number, each in [0, {}]", high);
+  if (!value.is_number() && !three_numbers(value)) fail(key, expected);
+  const Vec3 rgb = value.is_number() ? Vec3::Constant(value.get<double>()) : vector_of(value);
+  if (!(rgb.minCoeff() >= 0 && rgb.maxCoeff() <= high)) fail(key, expected);
+  return rgb;
+}
+
+Vec2 JsonObject::pair(const std::string& key, const Vec2& fallback, Range range) {
+  known_.insert(key);
+  if (!has(key)) return fallback;
+  const nlohmann::json& value = raw(key);
+  const bool listed = value.is_array() && value.size() == 2 && value[0].is_number() && value[1].is_number();
+  const std::string expected = fmt::format("a number or [x, y] in [{}, {}]", range.low, range.high);
+  if (!listed && !value.is_number()) fail(key, expected);
+  const Vec2 xy =
+      listed ? Vec2(value[0].get<double>(), value[1].get<double>()) : Vec2::Constant(value.get<double>());
+  if (!(xy.minCoeff() >= range.low && xy.maxCoeff() <= range.high)) fail(key, expected);
+  return xy;
+}
+
+Vec3 JsonObject::direction(const std::string& key) {
+  const nlohmann::json& value = raw(key);
+  const std::string expected = "[x, y, z], a direction of positive length";
+  if (!three_numbers(value)) fail(key, expected);
+  const Vec3 v = vector_of(value);
+  const double largest = v.cwiseAbs().maxCoeff();
+  if (!(largest > 0) || !std::isfinite(largest)) fail(key, expected);
+  return (v / largest).normalized();
+}
+
+Vec3 JsonObject::point(const std::string& key) {
+  const nlohmann::json& value = raw(key);
+  if (!three_numbers(value)) fail(key, "[x, y, z]");
+  return vector_of(value);
+}
+
+void JsonObject::finish() const {
+  for (const auto& [key, value] : value_->items()) {
+    if (!known_.contains(key)) {
+      throw Error(
+          fmt::format("{}: unknown key \"{}\"; known here: {}", where_, key, fmt::join(known_, ", ")));
+    }
+  }
+}
+
+}  // namespace sateen::appearance

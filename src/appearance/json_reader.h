@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <filesystem>
+#include <set>
+#include <span>
+#include <string>
+
+#include <nlohmann/json.hpp>
+
+#include "sateen/core/vector.h"
+
+// Heavy to compile: include it in .cpp files only.
+
+namespace sateen::appearance {
+
+/// A JSON file. Throws Error naming the file when it is missing, no JSON, or nested absurdly deep.
+nlohmann::json read_json(const std::filesystem::path& path);
+
+/// One JSON object of a user's file, read key by key. Every complaint is an Error that names file, key and
+/// value, and says what would be right; finish() complains about keys nobody asked for.
+class JsonObject {
+ public:
+  /// `where` names the object in messages: the file, and the place in it where there are several. Throws
+  /// Error when `value` is no object.
+  JsonObject(const nlohmann::json& value, std::string where);
+
+  bool has(const std::string& key) const;
+  /// A number in [low, high] ("open" ends exclude themselves), or `fallback` where the key is missing.
+  struct Range {
+    double low;
+    double high;
+    bool low_open = false;
+    bool high_open = false;
+  };
+  double number(const std::string& key, double fallback, Range range);
+  bool flag(const std::string& key, bool fallback);
+  std::string choice(const std::string& key, const std::string& fallback,
+                     std::span<const std::string> choices);
+  std::string text(const std::string& key, const std::string& fallback);
+  /// [r, g, b] or one number, each in [0, high].
+  Vec3 colour(const std::string& key, const Vec3& fallback, double high = 1);
+  /// One number or [x, y], each in the closed range.
+  Vec2 pair(const std::string& key, const Vec2& fallback, Range range);
+  /// [x, y, z] of any positive length, returned unit. The key must be there.
+  Vec3 direction(const std::string& key);
+  /// [x, y, z], anywhere. The key must be there.
+  Vec3 point(const std::string& key);
+  const nlohmann::json& raw(const std::string& key);
+
+  [[noreturn]] void fail(const std::string& key, const std::string& what) const;
+  void finish() const;
+
+ private:
+  const nlohmann::json* value_;
+  std::string where_;
+  std::set<std::string> known_;
+};
+
+}  // namespace sateen::appearance

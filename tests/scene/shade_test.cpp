@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+#include "sateen/scene/shade.h"
+
+#include "sateen/amc/appearance.h"
+#include "sateen/core/direction.h"
+#include "sateen/core/error.h"
+#include "sateen/matcap/matcap.h"
+#include "sateen/scene/aov.h"
+#include "support/analytic_material.h"
+#include "support/rendering.h"
+#include "support/shapes.h"
+
+namespace sateen::scene {
+namespace {
+
+// Two ways to one picture: the rasteriser, and the evaluator over what the rasteriser wrote about the
+// surface.
+TEST(Shade, OfRenderedNormalsAndTangentsIsTheRenderedPicture) {
+  const auto appearance = std::make_shared<const amc::AmcAppearance>(test::analytic_table(32, 32, 2));
+  for (const Camera::Kind kind : {Camera::Kind::orthographic, Camera::Kind::perspective}) {
+    test::Shot picture{.width = 80, .height = 60};
+    picture.camera.kind = kind;
+    picture.rotation = rotation_xyz({0.7, 0.3, 0.1});
+    const Scene scene = test::scene_of(test::torus(), appearance, {.tangent_angle = TangentAngle::fragment});
+    const render::Picture frame = test::render(scene, picture);
+    ShadeInputs inputs{.normals = aov(*frame.surfaces, "normal"),
+                       .tangents = aov(*frame.surfaces, "tangent")};
+    if (kind == Camera::Kind::perspective) inputs.positions = aov(*frame.surfaces, "position");
+    const Image shaded = shade(*appearance, inputs);
+    test::Difference difference;
+    for (int y = 0; y < 60; ++y) {
+      for (int x = 0; x < 80; ++x) {
+        EXPECT_EQ(shaded.at(x, y, 3), frame.colour.at(x, y, 3));
+        difference.add(x, y, (shaded.rgb(x, y) - frame.colour.rgb(x, y)).cwiseAbs().maxCoeff(), 4e-3);
+      }
+    }
+    EXPECT_EQ(difference.failing, 0) << difference.largest;
+  }
+}
+
+TEST(Shade, TopRowNormalsFaceUpAndZeroIsEmpty) {
+  const matcap::MatCap matcap(test::test_matcap());
+  Image normals(1, 2, 3);
+  normals.set_rgb(0, 0, {0, 1.6f, 1.2f});  // any length
+  const Image picture = shade(matcap, {.normals = normals});
+  EXPECT_NEAR(picture.at(0, 0, 1), 0.9, 1e-3);
+  EXPECT_EQ(picture.at(0, 0, 3), 1);
+  for (int c = 0; c < 4; ++c) EXPECT_EQ(picture.at(0, 1, c), 0);
+}
+
+TEST(Shade, OcclusionMultiplies) {
+  const matcap::MatCap matcap(Image(8, 8, 3, 1));
+  Image normals(1, 1, 3);
+  normals.set_rgb(0, 0, {0, 0, 1});
+  EXPECT_NEAR(shade(matcap, {.normals = normals, .occlusion = Image(1, 1, 1, 0.25f)}).at(0, 0, 2), 0.25,
+              1e-6);
+}
+
+TEST(Shade, RefusesWhatDoesNotFit) {
+  const matcap::MatCap matcap(test::test_matcap());
+  const amc::AmcAppearance amc(test::analytic_table(8, 8, 1));
+  EXPECT_THROW(shade(matcap, {}), Error);
+  EXPECT_THROW(shade(matcap, {.normals = Image(4, 4, 1)}), Error);
+  EXPECT_THROW(shade(matcap, {.normals = Image(4, 4, 3), .tangents = Image(4, 5, 3)}), Error);
+  EXPECT_THROW(shade(amc, {.normals = Image(4, 4, 3)}), Error);
+}
+
+}  // namespace
+}  // namespace sateen::scene
