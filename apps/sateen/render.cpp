@@ -15,7 +15,7 @@
 #include "sateen/io/image.h"
 #include "sateen/io/video.h"
 #include "sateen/render/renderer.h"
-#include "sateen/scene/aov.h"
+#include "sateen/scene/surface_images.h"
 #include "scene_options.h"
 
 namespace sateen::cli {

@@ -104,8 +104,8 @@ scene::Scene load(const SceneArguments& arguments) {
   options.normal_map = arguments.normal_map;
   options.normal_scale = static_cast<float>(arguments.normal_scale);
   options.direction_map = arguments.direction_map;
-  options.environment = arguments.environment;
-  options.environment_turn = radians(arguments.environment_turn);
+  options.lighting = {arguments.environment, radians(arguments.environment_turn)};
+  options.warn = warn;
   options.switches = switches(arguments);
   options.progress = progress_bar("Preparing");
   return scene::load_scene(arguments.mesh, options);

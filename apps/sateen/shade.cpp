@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "sateen/scene/shade.h"
 
+#include <array>
 #include <filesystem>
+#include <map>
 
 #include "command.h"
 #include "commands.h"
 #include "sateen/io/image.h"
-#include "sateen/light/environment.h"
-#include "sateen/scene/registry.h"
+#include "sateen/scene/lighting.h"
 
 namespace sateen::cli {
 namespace {
@@ -15,32 +16,24 @@ namespace {
 namespace fs = std::filesystem;
 
 struct ShadeArguments {
-  fs::path normals;
-  fs::path tangents;
-  fs::path positions;
-  fs::path occlusion;
-  fs::path uvs;
-  fs::path curvature;
-  fs::path mesh_normals;
+  std::map<appearance::SurfaceField, fs::path> pictures;
   fs::path material;
-  fs::path environment;
+  scene::LightingOptions lighting;
+  double environment_turn = 0;  ///< degrees
   fs::path output;
 };
 
 void run(const ShadeArguments& arguments) {
-  const auto appearance =
-      arguments.environment.empty()
-          ? scene::load_appearance(arguments.material)
-          : scene::load_appearance(arguments.material, light::read_environment(arguments.environment));
-  const auto read = [](const fs::path& path) { return path.empty() ? Image() : io::read_data(path); };
-  const scene::ShadeInputs inputs{.normals = read(arguments.normals),
-                                  .tangents = read(arguments.tangents),
-                                  .positions = read(arguments.positions),
-                                  .occlusion = read(arguments.occlusion),
-                                  .uvs = read(arguments.uvs),
-                                  .curvature = read(arguments.curvature),
-                                  .mesh_normals = read(arguments.mesh_normals)};
-  io::write_image(arguments.output, scene::shade(*appearance, inputs, progress_bar("Shading")));
+  const std::array materials{scene::load_material(arguments.material)};
+  scene::LightingOptions lighting = arguments.lighting;
+  lighting.environment_turn = radians(arguments.environment_turn);
+  scene::ShadeInputs inputs;
+  for (const auto& [field, path] : arguments.pictures) {
+    if (!path.empty()) inputs[field] = io::read_data(path);
+  }
+  io::write_image(arguments.output,
+                  scene::shade(*materials[0].appearance, inputs, scene::make_lighting(materials, lighting),
+                               progress_bar("Shading")));
 }
 
 }  // namespace
@@ -51,26 +44,22 @@ void add_shade(CLI::App& parent) {
       parent, "shade", "Shade pictures of normals and tangents with a material, without drawing",
       "sateen shade --normals jacket.normal.exr --tangents jacket.tangent.exr --material silk.ktx2 "
       "-o jacket.exr");
-  command
-      ->add_option("--normals", arguments->normals,
-                   "View-space normals as stored, row 0 on top; zero is empty")
-      ->required();
-  command->add_option("--tangents", arguments->tangents,
-                      "View-space tangents, for materials that have a direction");
-  command->add_option(
-      "--positions", arguments->positions,
-      "View-space positions with the eye at the origin; without them the view is orthographic");
-  command->add_option("--occlusion", arguments->occlusion,
-                      "Ambient occlusion in the first channel, 1 is open");
-  command->add_option("--uv", arguments->uvs, "Texture coordinates, v up, for materials with textures");
-  command->add_option("--curvature", arguments->curvature,
-                      "Curvature in the first channel, positive where convex");
-  command->add_option("--mesh-normals", arguments->mesh_normals,
-                      "Normals before any normal map, for materials that smooth theirs");
+  for (const appearance::SurfaceFieldInfo& field : appearance::surface_fields()) {
+    if (field.input.empty()) continue;
+    CLI::Option* option =
+        command->add_option("--" + std::string(field.input), arguments->pictures[field.field],
+                            "Picture of the surface: " + std::string(field.meaning));
+    if (field.field == appearance::SurfaceField::normal) option->required();
+  }
   command->add_option("--material,-m", arguments->material, "AMC, MatCap picture or .json material")
       ->required();
-  command->add_option("--env", arguments->environment,
-                      "Latitude-longitude picture that lights a \"layered\" material");
+  CLI::Option* environment =
+      command->add_option("--env", arguments->lighting.environment,
+                          "Latitude-longitude picture that lights a \"layered\" material");
+  command
+      ->add_option("--env-rotate", arguments->environment_turn,
+                   "Turns it about the vertical, degrees, counter-clockwise seen from above")
+      ->needs(environment);
   command->add_option("-o,--output", arguments->output, "The picture, RGBA")->required();
   command->callback([arguments] { run(*arguments); });
 }

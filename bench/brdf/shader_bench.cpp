@@ -23,11 +23,11 @@ using namespace sateen;
 
 struct Case {
   const char* name;
-  std::shared_ptr<const appearance::Appearance> appearance;
+  std::shared_ptr<appearance::Appearance> appearance;
   double best = std::numeric_limits<double>::infinity();
 };
 
-std::vector<Case> cases(const brdf::Lighting& lighting) {
+std::vector<Case> cases() {
   brdf::LayeredMaterial ggx;
   ggx.specular = brdf::GgxParameters{{0.2, 0.5, 0.3}, {0.1, 0.1, 0.1}, false};
   brdf::LayeredMaterial fuzz;
@@ -40,9 +40,9 @@ std::vector<Case> cases(const brdf::Lighting& lighting) {
   brdf::LayeredMaterial simple;
   simple.simple_fuzziness = 0.7;
   const auto look = [&](const brdf::LayeredMaterial& material) {
-    return std::make_shared<const brdf::LayeredAppearance>(material, lighting);
+    return std::make_shared<brdf::LayeredAppearance>(material);
   };
-  return {{"constant colour", std::make_shared<const scene::Constant>(Vec3::Ones())},
+  return {{"constant colour", std::make_shared<scene::Constant>(Vec3::Ones())},
           {"anisotropic GGX", look(ggx)},
           {"fuzz, table", look(fuzz)},
           {"fuzz, slides' polynomials", look(slides)},
@@ -50,10 +50,10 @@ std::vector<Case> cases(const brdf::Lighting& lighting) {
           {"simplified fuzz", look(simple)}};
 }
 
-void measure(const char* title, const brdf::Lighting& lighting) {
+void measure(const char* title, const light::Lighting& lighting) {
   constexpr int kSize = 512;
   constexpr int kRounds = 9;
-  std::vector<Case> all = cases(lighting);
+  std::vector<Case> all = cases();
   scene::Camera camera;
   camera.kind = scene::Camera::Kind::view_space;
   const std::vector<Mat3> pose{rotation_xyz({-0.4, 0.3, 0})};
@@ -63,6 +63,7 @@ void measure(const char* title, const brdf::Lighting& lighting) {
   scene.mesh = test::plane();
   for (Vec3f& p : scene.mesh.positions) p *= 1.6f;
   scene.materials.resize(1);
+  scene.lighting = lighting;
   for (const Case& one : all) {
     scene.materials[0].appearance = one.appearance;
     renderers.emplace_back(scene);
@@ -95,14 +96,14 @@ int main() {
   context.make_current();
   light::PunctualLight lamp;
   lamp.direction = Vec3(-0.4, 0.6, 0.7).normalized();
-  brdf::Lighting lighting;
-  lighting.harmonics.c[0] = Vec3::Constant(0.3);
-  lighting.lights = {lamp};
+  light::Lighting lighting;
+  lighting.surroundings.harmonics.c[0] = Vec3::Constant(0.3);
+  lighting.lamps = {lamp};
   measure("one lamp and harmonics", lighting);
-  lighting.lights = {lamp, lamp, lamp, lamp};
+  lighting.lamps = {lamp, lamp, lamp, lamp};
   measure("four lamps and harmonics", lighting);
-  lighting.lights.clear();
-  lighting.set_environment(Image(64, 32, 3, 0.5f));
+  lighting.lamps.clear();
+  lighting.surroundings = light::make_surroundings(Image(64, 32, 3, 0.5f));
   measure("an environment map (eight lookups along the GGX lobe)", lighting);
   return 0;
 }

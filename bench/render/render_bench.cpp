@@ -46,17 +46,17 @@ Mesh sheet() {
   return mesh;
 }
 
-std::shared_ptr<const appearance::Appearance> appearance(Subject subject) {
-  if (subject == kConstant) return std::make_shared<const scene::Constant>(Vec3(0.2, 0.4, 0.6));
+std::shared_ptr<appearance::Appearance> appearance(Subject subject) {
+  if (subject == kConstant) return std::make_shared<scene::Constant>(Vec3(0.2, 0.4, 0.6));
   amc::AmcTable table = test::analytic_table(128, 128, 2);
   table.encoding = amc::AmcEncoding::srgb8;
   amc::quantise(table);
   if (subject == kDecomposed) {
-    return std::make_shared<const matcap::DecomposedAppearance>(matcap::unedited(
+    return std::make_shared<matcap::DecomposedAppearance>(matcap::unedited(
         matcap::decompose(amc::isotropic_average(table), matcap::inscribed_disc(128, 128), {}, "matcap")));
   }
-  if (subject == kMatCap) return std::make_shared<const matcap::MatCap>(amc::isotropic_average(table));
-  return std::make_shared<const amc::AmcAppearance>(table);
+  if (subject == kMatCap) return std::make_shared<matcap::MatCap>(amc::isotropic_average(table));
+  return std::make_shared<amc::AmcAppearance>(table);
 }
 
 constexpr std::array kSubjects{kConstant, kMatCap, kDecomposed, kAmc, kAmcPerFragment};

@@ -5,11 +5,7 @@
 
 namespace sateen::amc {
 
-Vec3 AmcAppearance::evaluate(const appearance::Surface& surface) const {
-  return surface.occlusion * lookup(table_, surface.eye_normal, surface.tangent_angle);
-}
-
-appearance::ShaderBinding AmcAppearance::shader() const {
+AmcAppearance::AmcAppearance(AmcTable table) : table_(std::move(table)) {
   auto texture = std::make_shared<TextureData>();
   texture->shape = TextureData::Shape::volume_3d;
   texture->format =
@@ -18,11 +14,21 @@ appearance::ShaderBinding AmcAppearance::shader() const {
   texture->depth = table_.slices;
   texture->wrap_w = TextureData::Wrap::repeat;
   texture->levels = {encoded_texels(table_)};
-  return {.files = {"amc.glsl"},
-          .function = "amc",
-          .uniforms = {{"amc_symmetry", static_cast<float>(table_.symmetry)},
+  texture_ = std::move(texture);
+}
+
+Vec3 AmcAppearance::evaluate(const appearance::Surface& surface) const {
+  return surface.occlusion * lookup(table_, surface.eye_normal, surface.tangent_angle);
+}
+
+appearance::ShaderModule AmcAppearance::shader() const {
+  return {.texts = {{"amc.glsl", ""}}, .defines = {}, .entry = "amc", .point = ""};
+}
+
+appearance::ShaderValues AmcAppearance::values() const {
+  return {.uniforms = {{"amc_symmetry", static_cast<float>(table_.symmetry)},
                        {"amc_half_slice", 0.5f / static_cast<float>(table_.slices)}},
-          .textures = {{"amc_table", texture}}};
+          .textures = {{"amc_table", texture_}}};
 }
 
 }  // namespace sateen::amc

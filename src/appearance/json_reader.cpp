@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "sateen/appearance/json_reader.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -72,18 +73,26 @@ JsonObject::JsonObject(const nlohmann::json& value, std::string where)
 }
 
 void JsonObject::fail(const std::string& key, const std::string& what) const {
-  const std::string found = value_->contains(key) ? short_dump((*value_)[key]) : "nothing";
+  const std::string found = has(key) ? short_dump((*value_)[spelled(key)]) : "nothing";
   throw Error(fmt::format("{}: \"{}\" must be {}, found {}", where_, key, what, found));
 }
 
+std::string JsonObject::spelled(const std::string& key) const {
+  const std::size_t at = key.find("color");
+  if (at == std::string::npos || value_->contains(key)) return key;
+  std::string british = key;
+  british.replace(at, 5, "colour");
+  return value_->contains(british) ? british : key;
+}
+
 bool JsonObject::has(const std::string& key) const {
-  return value_->contains(key);
+  return value_->contains(spelled(key));
 }
 
 const nlohmann::json& JsonObject::raw(const std::string& key) {
   known_.insert(key);
   if (!has(key)) throw Error(fmt::format("{}: \"{}\" is missing", where_, key));
-  return (*value_)[key];
+  return (*value_)[spelled(key)];
 }
 
 double JsonObject::number(const std::string& key, double fallback, Range range) {
@@ -123,7 +132,7 @@ std::string JsonObject::choice(const std::string& key, const std::string& fallba
   fail(key, fmt::format("one of {}", fmt::join(choices, ", ")));
 }
 
-Vec3 JsonObject::colour(const std::string& key, const Vec3& fallback, double high) {
+Vec3 JsonObject::color(const std::string& key, const Vec3& fallback, double high) {
   known_.insert(key);
   if (!has(key)) return fallback;
   const nlohmann::json& value = raw(key);
@@ -147,6 +156,29 @@ Vec2 JsonObject::pair(const std::string& key, const Vec2& fallback, Range range)
   return xy;
 }
 
+ParameterValue JsonObject::read(const Parameter& parameter) {
+  const std::string key = parameter.name.substr(parameter.name.rfind('.') + 1);
+  known_.insert(key);
+  if (!has(key)) return parameter.standard;
+  const nlohmann::json& value = raw(key);
+  ParameterValue result = std::nan("");
+  if (parameter.kind == Parameter::Kind::color && (value.is_number() || three_numbers(value))) {
+    result = value.is_number() ? Vec3(Vec3::Constant(value.get<double>())) : vector_of(value);
+  } else if (value.is_boolean()) {
+    result = value.get<bool>();
+  } else if (value.is_string()) {
+    result = value.get<std::string>();
+  } else if (value.is_number()) {
+    result = value.get<double>();
+  }
+  if (!allows(parameter, result)) fail(key, expectation(parameter));
+  return result;
+}
+
+void JsonObject::allow(std::initializer_list<const char*> keys) {
+  known_.insert(keys.begin(), keys.end());
+}
+
 Vec3 JsonObject::direction(const std::string& key) {
   const nlohmann::json& value = raw(key);
   const std::string expected = "[x, y, z], a direction of positive length";
@@ -165,7 +197,7 @@ Vec3 JsonObject::point(const std::string& key) {
 
 void JsonObject::finish() const {
   for (const auto& [key, value] : value_->items()) {
-    if (!known_.contains(key)) {
+    if (std::ranges::none_of(known_, [&](const std::string& k) { return spelled(k) == key; })) {
       throw Error(
           fmt::format("{}: unknown key \"{}\"; known here: {}", where_, key, fmt::join(known_, ", ")));
     }

@@ -1,28 +1,47 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <span>
+#include <string_view>
+
 #include "sateen/core/vector.h"
 
 namespace sateen::appearance {
 
-/// A surface point as an appearance sees it. The `Surface` struct of shaders/surface.glsl has the same
-/// fields.
+/// A surface point as an appearance sees it, in C++ and in GLSL: the rows of surface_fields.inc, which say
+/// what each field means. Directions are unit vectors in view space (x right, y up, z towards the viewer).
 struct Surface {
-  Vec3 position{0, 0, 0};     ///< view space; the eye is at the origin under perspective
-  Vec3 normal{0, 0, 1};       ///< view space, unit
-  Vec3 mesh_normal{0, 0, 1};  ///< the same before any normal map
-  Vec3 tangent{1, 0, 0};      ///< view space, unit, orthogonal to the normal
-  double side = 1;            ///< 1 on the front; -1 on the back, whose normal is turned to the viewer
-  double bitangent_sign = 1;  ///< bitangent = bitangent_sign * cross(normal, tangent)
-  Vec3 view{0, 0, 1};         ///< view space, unit, from the point towards the eye
-  Vec3 eye_normal{0, 0,
-                  1};  ///< the normal in the eye frame (direction.h): its (x, y) indexes MatCap-like tables
-  double tangent_angle =
-      0;  ///< k in turns: angle of the eye-frame tangent in the picture plane, [0, 1) or a period more
-  Vec2 uv{0, 0};         ///< v up
-  double occlusion = 1;  ///< ambient occlusion, 1 is open
-  double curvature = 0;  ///< 1 / view-space unit, positive where convex
-  int material = 0;      ///< index of the mesh's material
+#define SURFACE_FIELD(type, glsl, name, aov, input, meaning, ...) type name{__VA_ARGS__};
+#include "sateen/appearance/surface_fields.inc"
 };
+
+/// The fields by name.
+enum class SurfaceField {
+#define SURFACE_FIELD(type, glsl, name, ...) name,
+#include "sateen/appearance/surface_fields.inc"
+};
+
+/// What is said of a field besides its value. Packed, a Surface is a row of floats in which each field has
+/// its place.
+struct SurfaceFieldInfo {
+  SurfaceField field;
+  std::string_view name;
+  std::string_view aov;      ///< name among the output variables of a rendered picture; empty: none
+  std::string_view input;    ///< name among the pictures that `sateen shade` takes; empty: none
+  std::string_view meaning;  ///< one line
+  int first;                 ///< component of a packed surface
+  int components;
+};
+
+/// All fields in the order of the struct.
+std::span<const SurfaceFieldInfo> surface_fields();
+const SurfaceFieldInfo& surface_field(SurfaceField field);
+
+/// Floats of a packed Surface.
+int packed_components();
+/// The field's value from its components, as many as surface_field(field).components.
+void set_field(Surface& surface, SurfaceField field, std::span<const float> components);
+/// A whole packed surface.
+Surface unpacked(std::span<const float> components);
 
 }  // namespace sateen::appearance

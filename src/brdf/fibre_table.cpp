@@ -111,15 +111,14 @@ Vec2 FibreTable::along_coordinate() const {
 
 std::shared_ptr<const TextureData> FibreTable::texture(bool two_values) const {
   auto texture = std::make_shared<TextureData>();
-  texture->format = two_values ? TextureData::Format::rg32f : TextureData::Format::rgba32f;
+  texture->format = two_values ? TextureData::Format::rg16f : TextureData::Format::rgba16f;
   texture->width = along_;
   texture->height = across_;
   const std::size_t count = two_values ? 2 : 4;
-  std::vector<std::byte> bytes(texels_.size() * count * sizeof(float));
-  for (std::size_t i = 0; i < texels_.size(); ++i) {
-    std::memcpy(bytes.data() + i * count * sizeof(float), texels_[i].data(), count * sizeof(float));
-  }
-  texture->levels.push_back(std::move(bytes));
+  std::vector<float> values;
+  values.reserve(texels_.size() * count);
+  for (const Vec4f& texel : texels_) values.insert(values.end(), texel.data(), texel.data() + count);
+  texture->levels.push_back(half_bytes(values));
   return texture;
 }
 

@@ -19,7 +19,7 @@ inline constexpr double kUprightTilt = 1e-3;
 /// Read bilinearly at
 ///   along:  sqrt(1 - w.t) - sqrt(1 + w.t), nearly even in the angle, without trigonometry in the shader;
 ///   across: w.n between its least (at the horizon at least) and greatest value on that cone.
-/// shaders/fibre_table.glsl reads the same texels.
+/// shaders/appearance/fibre_table.glsl reads the same texels.
 class FibreTable {
  public:
   FibreTable() = default;
@@ -31,13 +31,13 @@ class FibreTable {
   /// the hemisphere and off the plane.
   FibreTable(const Vec3& fibre, int along, int across, const std::function<Column(double)>& column);
 
-  /// Directions below the horizon read the horizon. Texels are held in single precision, as the GPU does.
+  /// Directions below the horizon read the horizon. The GPU holds halves.
   Vec4 operator()(const Vec3& direction) const { return read(place(fibre_, direction)); }
   /// Where a direction lies over the texels' middles about any unit fibre, z >= 0, of any azimuth: along and
   /// across, both in [0, 1].
   static Vec2 place(const Vec3& fibre, const Vec3& direction);
   Vec4 read(const Vec2& place) const;
-  /// rgba32f, or rg32f with the first two values only; `along` to the right.
+  /// rgba16f, or rg16f with the first two values only; `along` to the right.
   std::shared_ptr<const TextureData> texture(bool two_values = false) const;
   /// What takes the first coordinate to [0, 1] over the texels' middles: scale and offset.
   Vec2 along_coordinate() const;

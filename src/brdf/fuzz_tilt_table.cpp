@@ -84,7 +84,7 @@ std::shared_ptr<const TextureData> FuzzTiltTable::ambient_texture() const {
 
 std::shared_ptr<const TextureData> FuzzTiltTable::bands_texture() const {
   auto texture = std::make_shared<TextureData>();
-  texture->format = TextureData::Format::rgba32f;
+  texture->format = TextureData::Format::rgba16f;
   texture->width = kTilts;
   texture->height = 1;
   std::vector<float> texels;
@@ -92,8 +92,7 @@ std::shared_ptr<const TextureData> FuzzTiltTable::bands_texture() const {
     for (const double band : table.scattered_bands) texels.push_back(static_cast<float>(band));
     texels.push_back(0);
   }
-  std::vector<std::byte>& bytes = texture->levels.emplace_back(texels.size() * sizeof(float));
-  std::memcpy(bytes.data(), texels.data(), bytes.size());
+  texture->levels.push_back(half_bytes(texels));
   return texture;
 }
 

@@ -27,10 +27,10 @@ class FuzzTiltTable {
   /// The same for all fibres.
   const std::array<double, 3>& passing_bands() const { return tables_.front().passing_bands; }
 
-  /// Volumes for the shader, rgba32f: along to the right, across, and tilt in depth.
+  /// Volumes for the shader, rgba16f: along to the right, across, and tilt in depth.
   std::shared_ptr<const TextureData> down_texture() const;
   std::shared_ptr<const TextureData> ambient_texture() const;
-  /// One row over tilt, rgba32f: scattered bands 0, 1, 2.
+  /// One row over tilt, rgba16f: scattered bands 0, 1, 2.
   std::shared_ptr<const TextureData> bands_texture() const;
 
   static constexpr int kTilts = 33;

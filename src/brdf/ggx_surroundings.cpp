@@ -5,7 +5,7 @@
 
 namespace sateen::brdf {
 
-Vec3 ggx_surroundings(const light::PrefilteredEnvironment& environment, const AnisotropicRoughness& lobe,
+Vec3 ggx_surroundings(const light::Surroundings& surroundings, const AnisotropicRoughness& lobe,
                       const Mat3& frame, const Vec3& view, int lookups) {
   // Half vectors at the quantiles of the slopes that the narrow lobe lacks along the long axis: a GGX
   // marginal, slope = a c / sqrt(1 - c^2) with c even in (-1, 1).
@@ -26,7 +26,7 @@ Vec3 ggx_surroundings(const light::PrefilteredEnvironment& environment, const An
     const Vec3 light = (off * (2 * cosine * half - view) + (1 - off) * Vec3::UnitZ()).normalized();
     if (cosine <= 0 || light.z() <= 1e-4) continue;
     const double weight = cosine / half.z() * view_masking / (view_masking + ggx_lambda(along, light));
-    sum += weight * environment.radiance(frame * light, blur);
+    sum += weight * surroundings.radiance(frame * light, blur);
     total += weight;
   }
   return total > 0 ? Vec3(sum / total) : Vec3::Zero();

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "sateen/brdf/ggx.h"
-#include "sateen/light/prefiltered.h"
+#include "sateen/light/lighting.h"
 
 namespace sateen::brdf {
 
@@ -14,8 +14,8 @@ namespace sateen::brdf {
 ///
 /// The lobe's axis is the first column of `frame` (tangent, bitangent, normal in the map's space): alpha_t >=
 /// alpha_b, and the azimuth is taken as 0; `view` lies in that frame, above the horizon.
-/// shaders/ggx_surroundings.glsl does the same.
-Vec3 ggx_surroundings(const light::PrefilteredEnvironment& environment, const AnisotropicRoughness& lobe,
+/// shaders/appearance/ggx_surroundings.glsl does the same.
+Vec3 ggx_surroundings(const light::Surroundings& surroundings, const AnisotropicRoughness& lobe,
                       const Mat3& frame, const Vec3& view, int lookups);
 
 }  // namespace sateen::brdf

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 
 #include "sateen/core/parallel.h"
 
@@ -46,11 +45,9 @@ Vec4 HemisphereTable::operator()(const Vec3& direction) const {
 
 std::shared_ptr<const TextureData> HemisphereTable::texture() const {
   auto texture = std::make_shared<TextureData>();
-  texture->format = TextureData::Format::rgba32f;
+  texture->format = TextureData::Format::rgba16f;
   texture->width = texture->height = size_;
-  std::vector<std::byte> bytes(texels_.size() * sizeof(Vec4f));
-  std::memcpy(bytes.data(), texels_.front().data(), bytes.size());
-  texture->levels.push_back(std::move(bytes));
+  texture->levels.push_back(half_bytes({texels_.front().data(), texels_.size() * 4}));
   return texture;
 }
 

@@ -12,7 +12,8 @@ namespace sateen::brdf {
 
 /// Four values for every direction of the upper hemisphere, tabulated on a square by the hemi-octahedral map
 /// (no trigonometry in the shader) and read bilinearly. The first and last texels of a row lie on the
-/// horizon, and the middle of the square is the normal. shaders/hemisphere_table.glsl reads the same texels.
+/// horizon, and the middle of the square is the normal. shaders/appearance/hemisphere_table.glsl reads the
+/// same texels.
 class HemisphereTable {
  public:
   HemisphereTable() = default;
@@ -20,9 +21,9 @@ class HemisphereTable {
   HemisphereTable(int size, const std::function<Vec4(const Vec3&)>& f);
 
   int size() const { return size_; }
-  /// Directions below the horizon read the horizon. Texels are held in single precision, as the GPU does.
+  /// Directions below the horizon read the horizon. The GPU holds halves.
   Vec4 operator()(const Vec3& direction) const;
-  /// rgba32f.
+  /// rgba16f.
   std::shared_ptr<const TextureData> texture() const;
 
  private:

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <vector>
 
 namespace sateen {
@@ -13,8 +14,8 @@ struct TextureData {
     rgba8,    ///< 4 bytes, linear
     srgba8,   ///< 4 bytes, colour decoded from sRGB on fetch
     rgba16f,  ///< 4 halves
-    rgba32f,  ///< 4 floats
-    rg32f,    ///< 2 floats
+    rg16f,    ///< 2 halves
+    rgba32f,  ///< 4 floats; WebGL filters them only with an extension: tables are halves
   };
   enum class Wrap { clamp, repeat };
 
@@ -31,5 +32,8 @@ struct TextureData {
   /// v is 0: pictures (row 0 on top) are flipped by whoever fills this.
   std::vector<std::vector<std::byte>> levels;
 };
+
+/// The values as the halves of a texture level, clamped to what halves hold.
+std::vector<std::byte> half_bytes(std::span<const float> values);
 
 }  // namespace sateen

@@ -115,6 +115,7 @@ PrincipalCurvatures compute_curvature(Mesh& mesh) {
   result.direction1.resize(count);
   result.direction2.resize(count);
   mesh.curvature.resize(count);
+  mesh.curvature_forms.resize(count);
   for (std::size_t i = 0; i < count; ++i) {
     const Vec4& sum = sums[weld[i]];
     const Vec3 form = sum.w() > 0 ? Vec3(sum.head<3>() / sum.w()) : Vec3(Vec3::Zero());
@@ -130,6 +131,10 @@ PrincipalCurvatures compute_curvature(Mesh& mesh) {
     result.direction1[i] = first.cast<float>();
     result.direction2[i] = own.normal().cross(first).cast<float>();
     mesh.curvature[i] = static_cast<float>(mean);
+    const Mat3 bent = form[0] * own.u * own.u.transpose() + form[2] * own.v * own.v.transpose() +
+                      form[1] * (own.u * own.v.transpose() + own.v * own.u.transpose());
+    mesh.curvature_forms[i] = {Vec3(bent.diagonal()).cast<float>(),
+                               Vec3(bent(1, 2), bent(0, 2), bent(0, 1)).cast<float>()};
   }
   return result;
 }

@@ -19,8 +19,8 @@ struct PrincipalCurvatures {
 
 /// Estimates curvature from the change of the vertex normals over each triangle (Rusinkiewicz 2004,
 /// Estimating Curvatures and Their Derivatives on Triangle Meshes), joined over seams, and fills
-/// mesh.curvature with the mean curvature (k1 + k2) / 2. Computes normals if there are none. A vertex of no
-/// triangle gets 0.
+/// mesh.curvature with the mean curvature (k1 + k2) / 2 and mesh.curvature_forms. Computes normals if there
+/// are none. A vertex of no triangle gets 0.
 PrincipalCurvatures compute_curvature(Mesh& mesh);
 
 }  // namespace sateen::geometry

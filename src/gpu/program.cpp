@@ -3,10 +3,12 @@
 
 #include <algorithm>
 #include <regex>
+#include <set>
 #include <sstream>
 
 #include <epoxy/gl.h>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "sateen/core/error.h"
 
@@ -29,16 +31,29 @@ struct StageText {
   std::vector<long> first_lines;  ///< by file, counted from 1
 };
 
-StageText stage_text(std::span<const ShaderFile> files, const Defines& defines) {
+StageText stage_text(std::span<const ShaderFile> files, const Defines& defines, const std::string& header) {
   StageText stage;
-  stage.text =
-      "#version 330 core\nprecision highp float;\nprecision highp int;\nprecision highp sampler3D;\n";
+  stage.text = header;
   for (const auto& [name, value] : defines) stage.text += fmt::format("#define {} {}\n", name, value);
   for (const ShaderFile& file : files) {
     stage.first_lines.push_back(std::ranges::count(stage.text, '\n') + 1);
     stage.text += fmt::format("{}\n", file.text);
   }
   return stage;
+}
+
+/// The names that the texts declare as uniforms.
+std::set<std::string> declared_uniforms(std::span<const ShaderFile> files) {
+  static const std::regex declaration(R"(\buniform\s+(?:(?:lowp|mediump|highp)\s+)?\w+\s+(\w+))");
+  std::set<std::string> names;
+  for (const ShaderFile& file : files) {
+    const char* begin = file.text.data();
+    for (std::cregex_iterator at(begin, begin + file.text.size(), declaration); at != std::cregex_iterator();
+         ++at) {
+      names.insert((*at)[1].str());
+    }
+  }
+  return names;
 }
 
 /// Drivers report places as "0:12(5)" or "0(12)", 12 being the line of the whole text (what #line says of
@@ -65,7 +80,7 @@ std::string with_file_names(const std::string& log, const StageText& stage,
 }
 
 Handle compile(unsigned stage, std::span<const ShaderFile> files, const Defines& defines) {
-  const StageText text = stage_text(files, defines);
+  const StageText text = stage_text(files, defines, kDesktopHeader);
   Handle shader(glCreateShader(stage), [](unsigned name) { glDeleteShader(name); });
   const char* pointer = text.text.c_str();
   glShaderSource(shader.name(), 1, &pointer, nullptr);
@@ -100,6 +115,21 @@ struct SetUniform {
 
 }  // namespace
 
+const std::string kDesktopHeader =
+    "#version 330 core\nprecision highp float;\nprecision highp int;\nprecision highp sampler3D;\n";
+
+std::string ProgramText::stage(Stage which, const std::string& header) const {
+  return stage_text(which == Stage::vertex ? vertex : fragment, defines, header).text;
+}
+
+std::string ProgramText::key() const {
+  return fmt::format("{}\n{}\n{}", stage(Stage::vertex, ""), stage(Stage::fragment, ""),
+                     fmt::join(attributes, ","));
+}
+
+Program::Program(const ProgramText& text)
+    : Program(text.vertex, text.fragment, text.defines, text.attributes) {}
+
 Program::Program(std::span<const ShaderFile> vertex, std::span<const ShaderFile> fragment,
                  const Defines& defines, std::span<const std::string> attributes) {
   const Handle vertex_shader = compile(GL_VERTEX_SHADER, vertex, defines);
@@ -118,6 +148,11 @@ Program::Program(std::span<const ShaderFile> vertex, std::span<const ShaderFile>
                                               handle_.name(), [](auto... a) { glGetProgramiv(a...); },
                                               [](auto... a) { glGetProgramInfoLog(a...); }));
   }
+  for (const auto& files : {vertex, fragment}) {
+    for (const std::string& name : declared_uniforms(files)) {
+      uniforms_[name] = glGetUniformLocation(handle_.name(), name.c_str());
+    }
+  }
 }
 
 void Program::use() const {
@@ -125,8 +160,9 @@ void Program::use() const {
 }
 
 void Program::set(const std::string& name, const appearance::UniformValue& value) const {
-  const GLint location = glGetUniformLocation(handle_.name(), name.c_str());
-  if (location >= 0) std::visit(SetUniform{location}, value);
+  const auto found = uniforms_.find(name);
+  if (found == uniforms_.end()) throw Error(fmt::format("the shader declares no uniform \"{}\"", name));
+  if (found->second >= 0) std::visit(SetUniform{found->second}, value);
 }
 
 }  // namespace sateen::gpu

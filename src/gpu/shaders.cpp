@@ -11,15 +11,14 @@
 namespace sateen::gpu {
 namespace {
 
-void collect(std::string_view name, std::vector<ShaderFile>& order) {
-  if (std::ranges::any_of(order, [&](const ShaderFile& file) { return file.name == name; })) return;
-  const ShaderFile& file = shader_file(name);
+void collect(const ShaderFile& file, std::vector<ShaderFile>& order) {
+  if (std::ranges::any_of(order, [&](const ShaderFile& other) { return other.name == file.name; })) return;
   constexpr std::string_view marker = "// needs:";
   std::istringstream lines{std::string(file.text)};
   for (std::string line; std::getline(lines, line);) {
     if (!line.starts_with(marker)) continue;
     std::istringstream words(line.substr(marker.size()));
-    for (std::string word; words >> word;) collect(word, order);
+    for (std::string word; words >> word;) collect(shader_file(word), order);
   }
   order.push_back(file);
 }
@@ -35,7 +34,13 @@ const ShaderFile& shader_file(std::string_view name) {
 
 std::vector<ShaderFile> with_needed(std::span<const std::string> names) {
   std::vector<ShaderFile> order;
-  for (const std::string& name : names) collect(name, order);
+  for (const std::string& name : names) collect(shader_file(name), order);
+  return order;
+}
+
+std::vector<ShaderFile> with_needed(std::span<const ShaderFile> files) {
+  std::vector<ShaderFile> order;
+  for (const ShaderFile& file : files) collect(file, order);
   return order;
 }
 

@@ -23,5 +23,7 @@ const ShaderFile& shader_file(std::string_view name);
 /// `names` in order, each after the files that its "// needs:" lines name, every file once. Throws Error for
 /// an unknown name.
 std::vector<ShaderFile> with_needed(std::span<const std::string> names);
+/// The same for texts of which some are not embedded.
+std::vector<ShaderFile> with_needed(std::span<const ShaderFile> files);
 
 }  // namespace sateen::gpu

@@ -28,8 +28,8 @@ GlFormat gl_format(TextureData::Format format) {
       return {GL_RGBA16F, GL_RGBA, GL_HALF_FLOAT, 8};
     case TextureData::Format::rgba32f:
       return {GL_RGBA32F, GL_RGBA, GL_FLOAT, 16};
-    case TextureData::Format::rg32f:
-      return {GL_RG32F, GL_RG, GL_FLOAT, 8};
+    case TextureData::Format::rg16f:
+      return {GL_RG16F, GL_RG, GL_HALF_FLOAT, 4};
   }
   throw Error("unknown texture format");
 }

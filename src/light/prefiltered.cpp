@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 
 #include "sateen/core/direction.h"
 #include "sateen/core/parallel.h"
@@ -103,6 +102,7 @@ PrefilteredEnvironment::PrefilteredEnvironment(const Image& environment, int wid
     levels_.push_back(std::move(level));
   }
   for (Image& level : levels_) round_to_halves(level);
+  texture_ = make_texture();
 }
 
 Vec3 PrefilteredEnvironment::radiance(const Vec3& direction, double alpha) const {
@@ -110,24 +110,22 @@ Vec3 PrefilteredEnvironment::radiance(const Vec3& direction, double alpha) const
   return pyramid_radiance(levels_, direction, std::sqrt(std::clamp(alpha, 0.0, 1.0)) * last);
 }
 
-std::shared_ptr<const TextureData> PrefilteredEnvironment::texture() const {
+std::shared_ptr<const TextureData> PrefilteredEnvironment::make_texture() const {
   auto texture = std::make_shared<TextureData>();
   texture->format = TextureData::Format::rgba16f;
   texture->width = levels_.front().width;
   texture->height = levels_.front().height;
   texture->wrap_u = TextureData::Wrap::repeat;
   for (const Image& level : levels_) {
-    std::vector<Half> texels;
+    std::vector<float> texels;
     texels.reserve(level.data.size() / 3 * 4);
     for (int y = level.height - 1; y >= 0; --y) {
       for (int x = 0; x < level.width; ++x) {
-        for (const float value : level.pixel(x, y)) texels.push_back(Half(value));
-        texels.push_back(Half(1));
+        for (const float value : level.pixel(x, y)) texels.push_back(value);
+        texels.push_back(1);
       }
     }
-    std::vector<std::byte> bytes(texels.size() * sizeof(Half));
-    std::memcpy(bytes.data(), texels.data(), bytes.size());
-    texture->levels.push_back(std::move(bytes));
+    texture->levels.push_back(half_bytes(texels));
   }
   return texture;
 }

@@ -25,10 +25,13 @@ class PrefilteredEnvironment {
   /// Radiance of a unit direction for a GGX alpha: bilinear in two levels, linear between them.
   Vec3 radiance(const Vec3& direction, double alpha) const;
   /// rgba16f with all levels, u repeating; row 0 is the nadir (v up).
-  std::shared_ptr<const TextureData> texture() const;
+  const std::shared_ptr<const TextureData>& texture() const { return texture_; }
 
  private:
+  std::shared_ptr<const TextureData> make_texture() const;
+
   std::vector<Image> levels_;
+  std::shared_ptr<const TextureData> texture_;
 };
 
 }  // namespace sateen::light

@@ -10,7 +10,7 @@ namespace sateen::light {
 /// Light from all directions as real spherical harmonics up to band 2 (Ramamoorthi and Hanrahan 2001),
 /// written as the polynomial they are, basis constants multiplied in:
 ///   L(d) = c0 + c1 y + c2 z + c3 x + c4 x y + c5 y z + c6 (3 z^2 - 1) + c7 x z + c8 (x^2 - y^2).
-/// shaders/environment.glsl takes the same nine colours.
+/// shaders/light/environment.glsl takes the same nine colours.
 struct SphericalHarmonics9 {
   std::array<Vec3, 9> c{Vec3::Zero(), Vec3::Zero(), Vec3::Zero(), Vec3::Zero(), Vec3::Zero(),
                         Vec3::Zero(), Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <filesystem>
+#include <future>
 #include <memory>
 
 #include "sateen/appearance/appearance.h"
@@ -24,25 +26,51 @@ struct ModulationMaps {
 };
 
 /// Shows an edited MatCap: evaluate() of edited_matcap.h at the eye-frame normal, times occlusion.
-class DecomposedAppearance final : public appearance::Appearance {
+///
+/// While it is being changed the full formula is drawn, in which the light's turn, colours and roughness are
+/// uniforms. When nothing was changed between two calls of settle(), and no texture varies it over the
+/// surface, all of it is baked into one table of normals on another thread, and one lookup is drawn from then
+/// on.
+class DecomposedAppearance final : public appearance::BakedLight {
  public:
   explicit DecomposedAppearance(EditedMatcap matcap, ModulationMaps maps = {});
 
   /// A .ktx2 decomposition as it is.
-  static std::unique_ptr<appearance::Appearance> read(const std::filesystem::path& path);
+  static std::unique_ptr<DecomposedAppearance> read(const std::filesystem::path& path);
 
-  /// A .json material: {"model": "matcap-decomposition", "matcap": "gold.ktx2", "edits": [...]}, optionally
+  /// A material {"model": "matcap-decomposition", "matcap": "gold.ktx2", "edits": [...]}, optionally
   /// with the pictures "low_color", "high_color", "roughness" (and "roughness_scale") and "occlusion". File
   /// names are beside the material's. Throws Error naming the material for what is missing or unknown.
-  static std::unique_ptr<appearance::Appearance> read_material(const std::filesystem::path& path);
+  static std::unique_ptr<DecomposedAppearance> parse(const std::string& json,
+                                                     const std::filesystem::path& path);
 
   Vec3 evaluate(const appearance::Surface& surface) const override;
-  appearance::ShaderBinding shader() const override;
-  Needs needs() const override { return {.uvs = maps_.any()}; }
+  appearance::ShaderModule shader() const override;
+  appearance::ShaderValues values() const override;
+  appearance::Needs needs() const override { return {.uvs = maps_.any()}; }
+
+  /// turn_x, turn_y, turn_z; of each part its color and intensity; high.roughness.
+  std::vector<appearance::Parameter> parameters() const override;
+  appearance::ParameterValue get(const std::string& name) const override;
+  void set(const std::string& name, const appearance::ParameterValue& value) override;
+  void settle(bool wait = false) override;
+
+  /// What can be changed from frame to frame.
+  struct Live {
+    EditedMatcap matcap;
+    Vec3 turn{0, 0, 0};         ///< of the light after all edits, radians about x, then y, then z
+    double added_variance = 0;  ///< of the high part, radians^2
+  };
 
  private:
-  EditedMatcap matcap_;
+  Live live_;
   ModulationMaps maps_;
+  std::shared_ptr<const TextureData> sphere_maps_;
+  std::array<std::shared_ptr<const TextureData>, 4> modulation_;
+  std::shared_ptr<const TextureData> normals_;  ///< everything baked; null while it is being changed
+  bool quiet_ = true;                           ///< nothing was set since the last settle()
+  std::future<std::shared_ptr<const TextureData>> baking_;
+  std::uint64_t baking_revision_ = 0;
 };
 
 }  // namespace sateen::matcap

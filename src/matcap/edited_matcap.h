@@ -60,5 +60,7 @@ Vec3 evaluate_part(const EditedMatcap& matcap, Part part, const Vec3& n, const M
 
 /// Both components, added up, as linear light.
 Vec3 evaluate(const EditedMatcap& matcap, const Vec3& n, const Modulation& modulation = {});
+/// The same with another turn of the light than matcap.light.
+Vec3 evaluate(const EditedMatcap& matcap, const Mat3& light, const Vec3& n, const Modulation& modulation);
 
 }  // namespace sateen::matcap

@@ -32,6 +32,7 @@ MatCap::MatCap(Image picture) : picture_(without_alpha(picture)) {
                             picture_.height));
   }
   fill_from_rim(picture_);
+  texture_ = std::make_shared<const TextureData>(picture_texture(picture_));
 }
 
 std::unique_ptr<MatCap> MatCap::read(const std::filesystem::path& path) {
@@ -54,11 +55,12 @@ Vec3 MatCap::evaluate(const appearance::Surface& surface) const {
   return surface.occlusion * lookup(surface.eye_normal.head<2>());
 }
 
-appearance::ShaderBinding MatCap::shader() const {
-  return {.files = {"matcap.glsl"},
-          .function = "matcap",
-          .uniforms = {},
-          .textures = {{"matcap_table", std::make_shared<const TextureData>(picture_texture(picture_))}}};
+appearance::ShaderModule MatCap::shader() const {
+  return {.texts = {{"matcap.glsl", ""}}, .defines = {}, .entry = "matcap", .point = ""};
+}
+
+appearance::ShaderValues MatCap::values() const {
+  return {.uniforms = {}, .textures = {{"matcap_table", texture_}}};
 }
 
 }  // namespace sateen::matcap

@@ -12,7 +12,7 @@ namespace sateen::matcap {
 /// A plain MatCap (Sloan et al. 2001; Magri et al. 2016, section 3): one picture of a lit sphere, looked up
 /// by the x and y of the eye-frame normal. Pixel-centred: texel x covers n_x = 2 (x + 0.5) / size - 1. For
 /// isotropic materials.
-class MatCap : public appearance::Appearance {
+class MatCap final : public appearance::BakedLight {
  public:
   /// A square picture of the sphere, linear light, touching all four edges. Texels outside the disc are
   /// replaced from the rim, alpha is divided out. Throws Error when it is not square.
@@ -27,10 +27,12 @@ class MatCap : public appearance::Appearance {
   Vec3 lookup(const Vec2& disc) const;
 
   Vec3 evaluate(const appearance::Surface& surface) const override;
-  appearance::ShaderBinding shader() const override;
+  appearance::ShaderModule shader() const override;
+  appearance::ShaderValues values() const override;
 
  private:
   Image picture_;  ///< three channels
+  std::shared_ptr<const TextureData> texture_;
 };
 
 }  // namespace sateen::matcap

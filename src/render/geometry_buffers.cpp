@@ -9,7 +9,30 @@
 namespace sateen::render {
 namespace {
 
-enum Attribute : GLuint { kPosition, kNormal, kTangent, kMapTangent, kUv, kOcclusion, kCurvature };
+enum Attribute : GLuint {
+  kPosition,
+  kNormal,
+  kTangent,
+  kMapTangent,
+  kCurvatureDiagonal,
+  kCurvatureOff,
+#define SURFACE_FIELD(...)
+#define SURFACE_VERTEX_FIELD(type, glsl, name, ...) k_##name,
+#include "sateen/appearance/surface_fields.inc"
+};
+
+/// What a mesh without the attribute has; generic attributes belong to the context, not to the vertex array.
+void set_standard(GLuint location, double value) {
+  glVertexAttrib1f(location, static_cast<GLfloat>(value));
+}
+void set_standard(GLuint location, const Vec2& value) {
+  glVertexAttrib2f(location, static_cast<GLfloat>(value.x()), static_cast<GLfloat>(value.y()));
+}
+
+template <class T>
+constexpr int kSize = T::RowsAtCompileTime;
+template <>
+constexpr int kSize<float> = 1;
 
 gpu::Handle buffer(GLenum target, const void* data, std::size_t bytes) {
   GLuint name = 0;
@@ -34,12 +57,6 @@ bool winds_with_normals(const Mesh& mesh) {
 
 }  // namespace
 
-std::span<const std::string> GeometryBuffers::attributes() {
-  static const std::array<std::string, 7> names{
-      "in_position", "in_normal", "in_tangent", "in_map_tangent", "in_uv", "in_occlusion", "in_curvature"};
-  return names;
-}
-
 GeometryBuffers::GeometryBuffers(const scene::Scene& scene)
     : counter_clockwise_(winds_with_normals(scene.mesh)) {
   const Mesh& mesh = scene.mesh;
@@ -58,9 +75,18 @@ GeometryBuffers::GeometryBuffers(const scene::Scene& scene)
   attribute(kNormal, mesh.normals, 3);
   attribute(kTangent, mesh.tangents, 4);
   attribute(kMapTangent, scene.map_tangents.empty() ? mesh.tangents : scene.map_tangents, 4);
-  attribute(kUv, mesh.uvs, 2);
-  attribute(kOcclusion, mesh.occlusion, 1);
-  attribute(kCurvature, mesh.curvature, 1);
+#define SURFACE_FIELD(...)
+#define SURFACE_VERTEX_FIELD(type, glsl, name, aov, input, mesh_array, ...) \
+  attribute(k_##name, mesh.mesh_array, kSize<std::decay_t<decltype(mesh.mesh_array[0])>>);
+#include "sateen/appearance/surface_fields.inc"
+  if (!mesh.curvature_forms.empty()) {
+    attribute(kCurvatureDiagonal, mesh.curvature_forms, 3);
+    const auto stride = static_cast<GLsizei>(sizeof(mesh.curvature_forms[0]));
+    glVertexAttribPointer(kCurvatureDiagonal, 3, GL_FLOAT, GL_FALSE, stride, nullptr);
+    glEnableVertexAttribArray(kCurvatureOff);
+    glVertexAttribPointer(kCurvatureOff, 3, GL_FLOAT, GL_FALSE, stride,
+                          reinterpret_cast<const void*>(sizeof(Vec3f)));
+  }
 
   // A counting sort of the triangles by material.
   const std::size_t count = mesh.triangles.size();
@@ -80,12 +106,14 @@ void GeometryBuffers::draw(std::size_t material) const {
   const std::size_t count = first_index_[material + 1] - first;
   if (count == 0) return;
   glBindVertexArray(vertex_array_.name());
-  // What a mesh without the attribute has; these belong to the context, not to the vertex array.
   glVertexAttrib4f(kTangent, 1, 0, 0, 1);
   glVertexAttrib4f(kMapTangent, 1, 0, 0, 1);
-  glVertexAttrib2f(kUv, 0, 0);
-  glVertexAttrib1f(kOcclusion, 1);
-  glVertexAttrib1f(kCurvature, 0);
+  glVertexAttrib3f(kCurvatureDiagonal, 0, 0, 0);
+  glVertexAttrib3f(kCurvatureOff, 0, 0, 0);
+  const appearance::Surface standard;
+#define SURFACE_FIELD(...)
+#define SURFACE_VERTEX_FIELD(type, glsl, name, ...) set_standard(k_##name, standard.name);
+#include "sateen/appearance/surface_fields.inc"
   glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(count), GL_UNSIGNED_INT,
                  reinterpret_cast<const void*>(first * sizeof(std::uint32_t)));
 }

@@ -10,13 +10,14 @@
 
 namespace sateen::render {
 
-/// A mesh on the GPU, its triangles sorted by material.
+/// A mesh on the GPU, its triangles sorted by material. Attributes have the locations of vertex_attributes()
+/// (surface_program.h).
 class GeometryBuffers {
  public:
   explicit GeometryBuffers(const scene::Scene& scene);
 
-  /// Names of the vertex attributes by location, as shaders/surface.vert spells them.
-  static std::span<const std::string> attributes();
+  /// Whether a material has no triangles.
+  bool empty(std::size_t material) const { return first_index_[material] == first_index_[material + 1]; }
 
   /// Draws the triangles of one material with the program in use.
   void draw(std::size_t material) const;

@@ -4,46 +4,20 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
+#include <optional>
 
 #include <epoxy/gl.h>
 #include <fmt/format.h>
 
 #include "sateen/core/error.h"
 #include "sateen/gpu/framebuffer.h"
+#include "sateen/gpu/state_guard.h"
 #include "sateen/render/geometry_buffers.h"
-#include "sateen/render/surface_pipeline.h"
+#include "sateen/render/surface_pass.h"
 
 namespace sateen::render {
 namespace {
-
-const scene::Scene& checked(const scene::Scene& scene) {
-  const Mesh& mesh = scene.mesh;
-  if (mesh.triangles.empty()) throw Error("the mesh has no triangles");
-  if (mesh.normals.empty()) throw Error("the mesh has no normals; compute them first");
-  std::uint32_t materials = 1;
-  for (const std::uint32_t id : mesh.material_ids) materials = std::max(materials, id + 1);
-  if (scene.materials.size() < materials) {
-    throw Error(
-        fmt::format("the mesh has {} materials and {} appearances", materials, scene.materials.size()));
-  }
-  for (const scene::Material& material : scene.materials) {
-    if (!material.appearance) throw Error("a material has no appearance");
-    const appearance::Appearance::Needs needs = material.appearance->needs();
-    const bool mapped =
-        material.normal_map.texture || material.direction_map.texture || material.occlusion_map.texture;
-    if ((needs.tangents || material.normal_map.texture || material.direction_map.texture) &&
-        mesh.tangents.empty()) {
-      throw Error("the material needs tangents and the mesh has none");
-    }
-    if ((needs.uvs || mapped) && mesh.uvs.empty()) {
-      throw Error("the material needs texture coordinates (UVs) and the mesh has none");
-    }
-    if (needs.curvature && mesh.curvature.empty()) {
-      throw Error("the material needs curvature and the mesh has none");
-    }
-  }
-  return scene;
-}
 
 struct Rectangle {
   int x = 0;
@@ -77,43 +51,82 @@ void paste(const Image& part, const Rectangle& at, Image& whole) {
 }  // namespace
 
 struct Renderer::Data {
+  using Output = SurfaceProgram::Output;
+
+  scene::MeshOffer offer;
   GeometryBuffers geometry;
-  std::vector<SurfacePipeline> pipelines;  ///< by material
-  std::vector<SurfacePipeline>
-      surface_pipelines;  ///< the same, writing the surface too; made when first needed
   std::vector<scene::Material> materials;
   scene::RenderSwitches switches;
+  light::Lighting lighting;
+  double tangent_turn;
+  Caches caches;
+  std::vector<std::optional<SurfacePass>> colour_passes;   ///< by material; made when first needed
+  std::vector<std::optional<SurfacePass>> surface_passes;  ///< the same, writing what is known of the surface
   gpu::Program resolve;
   gpu::Handle no_attributes;
+  std::map<std::array<int, 3>, gpu::Framebuffer> framebuffers;  ///< by width, height and targets
 
   explicit Data(const scene::Scene& scene)
-      : geometry(scene),
+      : offer(scene::offer_of(scene.mesh)),
+        geometry(scene),
         materials(scene.materials),
         switches(scene.switches),
+        lighting(scene.lighting),
+        tangent_turn(scene.tangent_turn),
         resolve(std::array{gpu::shader_file("picture.vert")}, std::array{gpu::shader_file("resolve.frag")}) {
-    pipelines = compile(false);
+    if (materials.size() < offer.materials) {
+      throw Error(
+          fmt::format("the mesh has {} materials and {} appearances", offer.materials, materials.size()));
+    }
+    for (const scene::Material& material : materials) check_material(offer, material);
+    forget_passes();
     GLuint name = 0;
     glGenVertexArrays(1, &name);
     no_attributes = gpu::Handle(name, [](unsigned id) { glDeleteVertexArrays(1, &id); });
   }
 
-  std::vector<SurfacePipeline> compile(bool write_surface) const {
-    std::vector<SurfacePipeline> result;
-    for (std::size_t i = 0; i < materials.size(); ++i) {
-      result.emplace_back(materials[i], static_cast<int>(i), switches, write_surface);
-    }
-    return result;
+  void forget_passes() {
+    colour_passes.assign(materials.size(), std::nullopt);
+    surface_passes.assign(materials.size(), std::nullopt);
   }
 
-  void draw(const std::vector<SurfacePipeline>& with, const scene::View& view,
-            const Mat4& clip_from_view) const {
+  /// Takes up what materials have become since the last frame.
+  void settle(bool wait) {
+    for (const scene::Material& material : materials) material.appearance->settle(wait);
+    caches.textures.sweep();
+  }
+
+  SurfacePass& pass(std::vector<std::optional<SurfacePass>>& passes, std::size_t material, Output output) {
+    std::optional<SurfacePass>& found = passes[material];
+    if (!found) {
+      check_material(offer, materials[material]);
+      found.emplace(materials[material], static_cast<int>(material), switches, output, caches);
+    }
+    found->update(caches);
+    return *found;
+  }
+
+  void draw(const scene::View& view, const Mat4& clip_from_view, Output output, int first_target = 0) {
     glEnable(GL_DEPTH_TEST);
     glDisable(GL_CULL_FACE);
     glDisable(GL_BLEND);
-    for (std::size_t i = 0; i < with.size(); ++i) {
-      with[i].use(view, clip_from_view, geometry.counter_clockwise());
+    auto& passes = output == Output::color ? colour_passes : surface_passes;
+    const FrameState frame{view, clip_from_view, geometry.counter_clockwise(), tangent_turn, lighting};
+    for (std::size_t i = 0; i < materials.size(); ++i) {
+      if (geometry.empty(i)) continue;
+      const SurfacePass& surface = pass(passes, i, output);
+      surface.use(frame, caches);
+      if (output == Output::surface) surface.set_first_target(first_target);
       geometry.draw(i);
     }
+  }
+
+  /// Kept for the next picture: those of one size, and of the tiles at its edges.
+  const gpu::Framebuffer& framebuffer(int width, int height, int targets) {
+    constexpr std::size_t kKept = 12;
+    const std::array key{width, height, targets};
+    if (!framebuffers.contains(key) && framebuffers.size() >= kKept) framebuffers.clear();
+    return framebuffers.try_emplace(key, width, height, targets).first->second;
   }
 
   /// The mean over samples x samples texels of `from` in each pixel of `to`.
@@ -129,46 +142,75 @@ struct Renderer::Data {
   }
 
   Image colour_tile(const scene::View& view, const Mat4& clip_from_view, const Rectangle& tile,
-                    const PictureSettings& settings) const {
+                    const PictureSettings& settings) {
     const int samples = settings.samples;
-    const gpu::Framebuffer large(tile.width * samples, tile.height * samples);
+    const gpu::Framebuffer& large = framebuffer(tile.width * samples, tile.height * samples, 1);
     large.bind();
     const Vec3f colour = settings.background.value_or(Vec3f::Zero());
     glClearColor(colour.x(), colour.y(), colour.z(), settings.background ? 1.0f : 0.0f);
     glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
-    draw(pipelines, view, clip_from_view);
+    draw(view, clip_from_view, Output::color);
     if (samples == 1) return large.read();
-    const gpu::Framebuffer small(tile.width, tile.height);
+    const gpu::Framebuffer& small = framebuffer(tile.width, tile.height, 1);
     average(large, small, samples);
     return small.read();
   }
 
   void surface_tile(const scene::View& view, const Mat4& clip_from_view, const Rectangle& tile,
                     scene::SurfaceImages& images) {
-    if (surface_pipelines.empty()) surface_pipelines = compile(true);
-    const gpu::Framebuffer target(tile.width, tile.height, 7);
-    target.bind();
-    glClearColor(0, 0, 0, 0);
-    glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
-    draw(surface_pipelines, view, clip_from_view);
-    int location = 1;
-    for (Image* image : {&images.position, &images.normal, &images.tangent, &images.eye_normal,
-                         &images.uv_and_curvature, &images.mesh_normal}) {
-      paste(target.read(location++), tile, *image);
+    constexpr int kTargets = 4;  // as many as WebGL2 promises
+    const gpu::Framebuffer& target = framebuffer(tile.width, tile.height, kTargets);
+    for (int first = 0; first < scene::packed_pictures(); first += kTargets) {
+      target.bind();
+      glClearColor(0, 0, 0, 0);
+      glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+      draw(view, clip_from_view, Output::surface, first);
+      for (int i = first; i < std::min(first + kTargets, scene::packed_pictures()); ++i) {
+        paste(target.read(i - first), tile, images.packed[static_cast<std::size_t>(i)]);
+      }
     }
   }
 };
 
-Renderer::Renderer(const scene::Scene& scene) : data_(std::make_unique<Data>(checked(scene))) {}
+Renderer::Renderer(const scene::Scene& scene) {
+  const gpu::StateGuard guard;
+  data_ = std::make_unique<Data>(scene);
+}
 Renderer::~Renderer() = default;
 Renderer::Renderer(Renderer&&) noexcept = default;
 Renderer& Renderer::operator=(Renderer&&) noexcept = default;
+
+void Renderer::set_material(std::size_t index, scene::Material material) {
+  Data& data = *data_;
+  if (index >= data.materials.size()) {
+    throw Error(fmt::format("there is no material {}; the scene has {}", index, data.materials.size()));
+  }
+  check_material(data.offer, material);
+  data.materials[index] = std::move(material);
+  data.colour_passes[index].reset();
+  data.surface_passes[index].reset();
+}
+
+void Renderer::set_lighting(light::Lighting lighting) {
+  data_->lighting = std::move(lighting);
+}
+
+void Renderer::set_switches(const scene::RenderSwitches& switches) {
+  data_->switches = switches;
+  data_->forget_passes();
+}
+
+void Renderer::set_tangent_turn(double angle) {
+  data_->tangent_turn = angle;
+}
 
 Picture Renderer::render(const scene::View& view, const PictureSettings& settings,
                          const Progress& progress) const {
   if (settings.width < 1 || settings.height < 1 || settings.samples < 1) {
     throw Error("a picture needs at least one pixel and one sample");
   }
+  const gpu::StateGuard guard;
+  data_->settle(true);
   const int side = std::min(settings.tile, gpu::max_framebuffer_size()) / settings.samples;
   if (side < 1)
     throw Error(fmt::format("{} samples are more than this OpenGL driver can draw", settings.samples));
@@ -176,8 +218,10 @@ Picture Renderer::render(const scene::View& view, const PictureSettings& setting
   Picture picture;
   picture.colour = Image(settings.width, settings.height, 4);
   if (settings.surfaces) {
-    const Image empty(settings.width, settings.height, 4);
-    picture.surfaces = scene::SurfaceImages{empty, empty, empty, empty, empty, empty, view.perspective};
+    picture.surfaces =
+        scene::SurfaceImages{std::vector<Image>(static_cast<std::size_t>(scene::packed_pictures()),
+                                                Image(settings.width, settings.height, 4)),
+                             view.perspective};
   }
   const int columns = (settings.width + side - 1) / side;
   const int rows = (settings.height + side - 1) / side;
@@ -194,7 +238,9 @@ Picture Renderer::render(const scene::View& view, const PictureSettings& setting
 }
 
 void Renderer::draw(const scene::View& view) const {
-  data_->draw(data_->pipelines, view, view.clip_from_view);
+  const gpu::StateGuard guard;
+  data_->settle(false);
+  data_->draw(view, view.clip_from_view, SurfaceProgram::Output::color);
 }
 
 }  // namespace sateen::render

@@ -20,8 +20,12 @@ struct PictureSettings {
   int tile = 4096;  ///< largest side, in samples, drawn at once; more is put together from tiles
 };
 
-/// A scene on the GPU, ready to be drawn from any view. It lives in the OpenGL context that is current when
-/// it is made (gpu::Context), and must be used and die while that one is current.
+/// A scene on the GPU, drawn from any view; its materials, lighting and switches may change between frames
+/// for the price of the change. It lives in the OpenGL context that is current when it is made, one of its
+/// own (gpu::Context) or a window's, and must be used and die while that one is current. Whatever OpenGL
+/// state it touches it puts back.
+///
+/// Appearances are shared with the caller: what is set on one shows in the next frame.
 class Renderer {
  public:
   /// Throws Error when a material needs what the mesh does not have, and when the driver cannot hold the
@@ -31,11 +35,19 @@ class Renderer {
   Renderer(Renderer&&) noexcept;
   Renderer& operator=(Renderer&&) noexcept;
 
-  /// One picture.
+  /// Replaces one material. Throws Error when there is no such material, and as the constructor does.
+  void set_material(std::size_t index, scene::Material material);
+  void set_lighting(light::Lighting lighting);
+  void set_switches(const scene::RenderSwitches& switches);
+  /// Turns all tangents about their normals by so many radians, counter-clockwise seen from outside.
+  void set_tangent_turn(double angle);
+
+  /// One picture, with everything prepared that takes long (Appearance::settle).
   Picture render(const scene::View& view, const PictureSettings& settings,
                  const Progress& progress = {}) const;
 
   /// Draws into whatever framebuffer is bound, over what is in it, with depth test; clearing is the caller's.
+  /// Never waits for tables: what is not ready is drawn as it was before.
   void draw(const scene::View& view) const;
 
  private:

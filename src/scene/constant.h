@@ -9,18 +9,22 @@
 namespace sateen::scene {
 
 /// One linear colour from every side, times occlusion: silhouettes, and the base line of benchmarks.
-class Constant : public appearance::Appearance {
+class Constant final : public appearance::BakedLight {
  public:
-  explicit Constant(const Vec3& colour) : colour_(colour) {}
+  explicit Constant(const Vec3& color) : color_(color) {}
 
-  /// A material file {"model": "constant", "colour": [r, g, b]}, linear. Throws Error naming the file.
-  static std::unique_ptr<Constant> read(const std::filesystem::path& path);
+  /// A material {"model": "constant", "color": [r, g, b]}, linear. Throws Error naming `path`.
+  static std::unique_ptr<Constant> parse(const std::string& json, const std::filesystem::path& path);
 
-  Vec3 evaluate(const appearance::Surface& surface) const override { return surface.occlusion * colour_; }
-  appearance::ShaderBinding shader() const override;
+  Vec3 evaluate(const appearance::Surface& surface) const override { return surface.occlusion * color_; }
+  appearance::ShaderModule shader() const override;
+  appearance::ShaderValues values() const override;
+  std::vector<appearance::Parameter> parameters() const override;
+  appearance::ParameterValue get(const std::string& name) const override;
+  void set(const std::string& name, const appearance::ParameterValue& value) override;
 
  private:
-  Vec3 colour_;
+  Vec3 color_;
 };
 
 }  // namespace sateen::scene

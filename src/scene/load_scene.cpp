@@ -13,7 +13,6 @@
 #include "sateen/geometry/tangents.h"
 #include "sateen/io/image.h"
 #include "sateen/io/mesh.h"
-#include "sateen/light/environment.h"
 #include "sateen/scene/registry.h"
 
 namespace sateen::scene {
@@ -62,22 +61,18 @@ std::vector<fs::path> appearance_paths(const Mesh& mesh, const fs::path& file, c
   return paths;
 }
 
+/// The materials of the mesh; their files, each once, go to `loaded`.
 std::vector<Material> load_materials(const io::Model& model, const fs::path& file,
-                                     const SceneOptions& options) {
-  std::map<fs::path, std::shared_ptr<const appearance::Appearance>> loaded;
+                                     const SceneOptions& options, std::vector<LoadedMaterial>& loaded) {
+  std::map<fs::path, std::size_t> known;
   const SurfaceMap normal_map = read_map(options.normal_map, 3, "normal map");
   const SurfaceMap direction_map = read_map(options.direction_map, 2, "direction map");
   const SurfaceMap occlusion_map = read_map(options.occlusion_map, 1, "occlusion map");
-  const Image surroundings =
-      options.environment.empty()
-          ? Image()
-          : light::turned_environment(light::read_environment(options.environment), options.environment_turn);
   std::vector<Material> materials;
   for (const fs::path& path : appearance_paths(model.mesh, file, options)) {
-    auto& appearance = loaded[path];
-    if (!appearance)
-      appearance = surroundings.empty() ? load_appearance(path) : load_appearance(path, surroundings);
-    Material material{.appearance = appearance};
+    const auto [place, fresh] = known.try_emplace(path, loaded.size());
+    if (fresh) loaded.push_back(load_material(path));
+    Material material{.appearance = loaded[place->second].appearance};
     material.normal_map = normal_map;
     material.normal_scale = options.normal_scale;
     material.direction_map = direction_map;
@@ -141,7 +136,12 @@ void make_tangents(Scene& scene, const fs::path& file, const TangentSource& sour
 Scene load_scene(const fs::path& file, const SceneOptions& options) {
   io::Model model = io::read_model(file);
   Scene scene;
-  scene.materials = load_materials(model, file, options);
+  std::vector<LoadedMaterial> loaded;
+  scene.materials = load_materials(model, file, options, loaded);
+  scene.lighting = make_lighting(loaded, options.lighting);
+  if (options.lighting.environment.empty() && names_several_lights(loaded)) {
+    options.warn("the materials name different lights; a scene has one: that of the first is taken");
+  }
   scene.mesh = std::move(model.mesh);
   scene.switches = options.switches;
   if (options.occlusion == OcclusionSource::none) scene.switches.occlusion = false;
@@ -151,8 +151,8 @@ Scene load_scene(const fs::path& file, const SceneOptions& options) {
   if (options.occlusion == OcclusionSource::compute)
     geometry::compute_occlusion(mesh, 128, 0, options.progress);
   for (const Material& material : scene.materials) {
-    const appearance::Appearance::Needs needs = material.appearance->needs();
-    if (needs.curvature && mesh.curvature.empty()) geometry::compute_curvature(mesh);
+    const appearance::Needs needs = material.appearance->needs();
+    if (needs.curvature && mesh.curvature_forms.empty()) geometry::compute_curvature(mesh);
     if ((needs.uvs || material.occlusion_map.texture) && mesh.uvs.empty()) {
       throw Error(
           fmt::format("{}: has no texture coordinates (UVs), and the material needs them", file.string()));

@@ -2,10 +2,12 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <string>
 
 #include "sateen/core/progress.h"
+#include "sateen/scene/lighting.h"
 #include "sateen/scene/scene.h"
 
 namespace sateen::scene {
@@ -39,16 +41,17 @@ struct SceneOptions {
   std::filesystem::path normal_map;     ///< in place of the file's own
   std::filesystem::path direction_map;
   float normal_scale = 1;
-  std::filesystem::path environment;  ///< latitude-longitude picture that lights the materials; empty: none
-  double environment_turn = 0;        ///< radians about the vertical (turned_environment)
-  bool file_normal_maps = true;       ///< use those of the file's materials
+  LightingOptions lighting;
+  bool file_normal_maps = true;  ///< use those of the file's materials
   RenderSwitches switches;
   Progress progress;
+  std::function<void(const std::string&)> warn = [](const std::string&) {};  ///< told what was left out
 };
 
-/// Reads a mesh and the appearances it is to be drawn with, and computes what they need and the file lacks:
-/// normals, tangents, curvature. Throws Error naming the file at fault, also when a material needs tangents
-/// and there are neither UVs nor a procedural field, and for a material name that the mesh does not have.
+/// Reads a mesh and the appearances it is to be drawn with (each file once), lights them, and computes what
+/// they need and the file lacks: normals, tangents, curvature. Throws Error naming the file at fault, also
+/// when a material needs tangents and there are neither UVs nor a procedural field, and for a material name
+/// that the mesh does not have.
 Scene load_scene(const std::filesystem::path& mesh, const SceneOptions& options);
 
 }  // namespace sateen::scene

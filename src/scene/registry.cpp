@@ -2,14 +2,15 @@
 #include "sateen/scene/registry.h"
 
 #include <algorithm>
+#include <functional>
 #include <map>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <nlohmann/json.hpp>
 
 #include "sateen/amc/amc_file.h"
 #include "sateen/amc/appearance.h"
+#include "sateen/appearance/json_reader.h"
 #include "sateen/brdf/layered/layered.h"
 #include "sateen/core/error.h"
 #include "sateen/io/file.h"
@@ -24,16 +25,18 @@ namespace sateen::scene {
 namespace {
 
 namespace fs = std::filesystem;
-using Loader = std::function<std::unique_ptr<appearance::Appearance>(const fs::path&)>;
-using Loaders = std::map<std::string, Loader>;
+using Made = std::shared_ptr<appearance::Appearance>;
+/// From JSON text and the path that messages call it.
+using Parser = std::function<Made(const std::string&, const fs::path&)>;
+using Loader = std::function<Made(const fs::path&)>;
 
-std::unique_ptr<appearance::Appearance> load_amc(const fs::path& path) {
-  return std::make_unique<amc::AmcAppearance>(amc::read_amc(path));
+Made load_amc(const fs::path& path) {
+  return std::make_shared<amc::AmcAppearance>(amc::read_amc(path));
 }
 
 /// Values of "sateen.kind" in .ktx2 files.
-const Loaders& ktx2_kinds() {
-  static const Loaders loaders{
+const std::map<std::string, Loader>& ktx2_kinds() {
+  static const std::map<std::string, Loader> loaders{
       {"amc", load_amc},
       {"matcap-decomposition", matcap::DecomposedAppearance::read},
   };
@@ -41,65 +44,67 @@ const Loaders& ktx2_kinds() {
 }
 
 /// Values of "model" in .json materials.
-const Loaders& models() {
-  static const Loaders loaders{
-      {"constant", Constant::read},
-      {"layered", brdf::LayeredAppearance::read},
-      {"mapped", texture::MappedAppearance::read},
-      {"matcap-decomposition", matcap::DecomposedAppearance::read_material},
+const std::map<std::string, Parser>& models() {
+  static const std::map<std::string, Parser> parsers{
+      {"constant", Constant::parse},
+      {"layered", brdf::LayeredAppearance::parse},
+      {"mapped", texture::MappedAppearance::parse},
+      {"matcap-decomposition", matcap::DecomposedAppearance::parse},
   };
-  return loaders;
+  return parsers;
 }
 
-std::unique_ptr<appearance::Appearance> load(const Loaders& loaders, const std::string& key,
-                                             const std::string& kind, const fs::path& path) {
-  if (const auto found = loaders.find(kind); found != loaders.end()) return found->second(path);
-  std::vector<std::string> known;
-  for (const auto& [name, loader] : loaders) known.push_back(name);
+/// What stands under `kind`. Throws Error that lists what is known.
+template <class Value>
+const Value& find(const std::map<std::string, Value>& known, const std::string& key, const std::string& kind,
+                  const fs::path& path) {
+  if (const auto found = known.find(kind); found != known.end()) return found->second;
+  std::vector<std::string> names;
+  for (const auto& [name, value] : known) names.push_back(name);
   throw Error(fmt::format("{}: {} \"{}\" is not known; known are {}", path.string(), key, kind,
-                          fmt::join(known, ", ")));
+                          fmt::join(names, ", ")));
 }
 
-std::unique_ptr<appearance::Appearance> load_ktx2(const fs::path& path) {
+Made load_ktx2(const fs::path& path) {
   const auto metadata = io::read_ktx2(path).metadata;
   const auto kind = metadata.find("sateen.kind");
   if (kind == metadata.end()) {
     throw Error(fmt::format("{}: is a texture but none that Sateen made; \"sateen amc build\" makes one",
                             path.string()));
   }
-  return load(ktx2_kinds(), "sateen.kind", kind->second, path);
+  return find(ktx2_kinds(), "sateen.kind", kind->second, path)(path);
 }
 
-std::unique_ptr<appearance::Appearance> load_json(const fs::path& path) {
-  const auto json = nlohmann::json::parse(io::read_text(path), nullptr, false);
-  if (!json.is_object() || !json.contains("model") || !json["model"].is_string()) {
+LoadedMaterial load_json(const fs::path& path) {
+  const nlohmann::json value = appearance::read_json(path);
+  if (!value.is_object() || !value.contains("model") || !value["model"].is_string()) {
     throw Error(fmt::format("{}: is no material; a JSON object with \"model\" is needed", path.string()));
   }
-  return load(models(), "model", json["model"], path);
+  LoadedMaterial material;
+  material.appearance = find(models(), "model", value["model"], path)(value.dump(), path);
+  if (material.appearance->lit()) {
+    appearance::JsonObject json(value, path.string());
+    material.lighting = appearance::read_lighting_keys(json, path);
+  }
+  return material;
 }
 
 }  // namespace
 
-std::unique_ptr<appearance::Appearance> load_appearance(const fs::path& path) {
+LoadedMaterial load_material(const fs::path& path) {
   if (!fs::exists(path)) throw Error(fmt::format("{}: no such file", path.string()));
   const std::string extension = io::extension_of(path);
-  if (extension == ".ktx2") return load_ktx2(path);
-  if (fs::is_directory(path)) return load_amc(path);
+  if (extension == ".ktx2") return {load_ktx2(path), {}};
+  if (fs::is_directory(path)) return {load_amc(path), {}};
   if (extension == ".json") return load_json(path);
-  if (std::ranges::count(io::image_extensions(), extension) > 0) return matcap::MatCap::read(path);
+  if (std::ranges::count(io::image_extensions(), extension) > 0) return {matcap::MatCap::read(path), {}};
   throw Error(fmt::format(
       "{}: is no material; a picture (MatCap), .ktx2 (AMC), a folder of AMC slices or .json is needed",
       path.string()));
 }
 
-std::unique_ptr<appearance::Appearance> load_appearance(const fs::path& path, const Image& environment) {
-  auto appearance = load_appearance(path);
-  if (!appearance->set_environment(environment)) {
-    throw Error(fmt::format(
-        "{}: its light is baked in; only materials of \"model\": \"layered\" or \"mapped\" take one",
-        path.string()));
-  }
-  return appearance;
+std::shared_ptr<appearance::Appearance> load_appearance(const fs::path& path) {
+  return load_material(path).appearance;
 }
 
 }  // namespace sateen::scene

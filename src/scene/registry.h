@@ -5,16 +5,22 @@
 #include <memory>
 
 #include "sateen/appearance/appearance.h"
+#include "sateen/appearance/lighting_keys.h"
 
 namespace sateen::scene {
 
-/// The appearance a file holds: a picture is a plain MatCap; a .ktx2 says what it is in its metadata under
+/// A material file: an appearance, and the light the file names for scenes that have none.
+struct LoadedMaterial {
+  std::shared_ptr<appearance::Appearance> appearance;
+  appearance::LightingKeys lighting;
+};
+
+/// The material a file holds: a picture is a plain MatCap; a .ktx2 says what it is in its metadata under
 /// "sateen.kind"; a .json material under "model". Throws Error naming the file when it cannot be read or is
 /// of no known kind.
-std::unique_ptr<appearance::Appearance> load_appearance(const std::filesystem::path& path);
+LoadedMaterial load_material(const std::filesystem::path& path);
 
-/// The same, lit by a latitude-longitude picture. Throws Error too when the appearance's light is baked in.
-std::unique_ptr<appearance::Appearance> load_appearance(const std::filesystem::path& path,
-                                                        const Image& environment);
+/// Its appearance alone.
+std::shared_ptr<appearance::Appearance> load_appearance(const std::filesystem::path& path);
 
 }  // namespace sateen::scene

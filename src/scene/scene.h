@@ -6,6 +6,7 @@
 
 #include "sateen/appearance/appearance.h"
 #include "sateen/core/mesh.h"
+#include "sateen/light/lighting.h"
 
 namespace sateen::scene {
 
@@ -39,9 +40,9 @@ struct SurfaceMap {
   Vec2f offset{0, 0};
 };
 
-/// What one material of the mesh is drawn with.
+/// What one material of the mesh is drawn with. Materials may share an appearance.
 struct Material {
-  std::shared_ptr<const appearance::Appearance> appearance = nullptr;
+  std::shared_ptr<appearance::Appearance> appearance = nullptr;
   SurfaceMap normal_map = {};  ///< tangent space, data in [0, 1], green up
   float normal_scale = 1;      ///< factor on its x and y
   SurfaceMap direction_map =
@@ -53,9 +54,29 @@ struct Material {
 struct Scene {
   Mesh mesh;  ///< with normals; with tangents and UVs where materials need them
   /// Tangents along u, the frame of the maps, when mesh.tangents point elsewhere; empty: the same.
-  std::vector<Vec4f> map_tangents;
-  std::vector<Material> materials;  ///< as many as mesh.material_names, at least one
-  RenderSwitches switches;
+  std::vector<Vec4f> map_tangents = {};
+  double tangent_turn =
+      0;  ///< radians, counter-clockwise seen from outside, by which all tangents are turned when drawn
+  std::vector<Material> materials = {};  ///< as many as mesh.material_names, at least one
+  light::Lighting lighting = {};         ///< of materials that are no baked light
+  RenderSwitches switches = {};
+
+  /// Whether the lighting makes a difference to any material.
+  bool lit() const;
 };
+
+/// What a mesh offers to materials.
+struct MeshOffer {
+  std::size_t materials = 1;  ///< as many appearances are needed
+  bool tangents = false;
+  bool uvs = false;
+  bool curvature = false;
+};
+
+/// Throws Error when the mesh has no triangles or normals.
+MeshOffer offer_of(const Mesh& mesh);
+
+/// Throws Error that says what is missing when a mesh lacks what a material needs.
+void check_material(const MeshOffer& mesh, const Material& material);
 
 }  // namespace sateen::scene

@@ -8,93 +8,87 @@
 #include "sateen/core/direction.h"
 #include "sateen/core/error.h"
 #include "sateen/core/parallel.h"
-#include "sateen/scene/surface_images.h"
 
 namespace sateen::scene {
 namespace {
 
-struct Plane {
-  const char* name;
-  const Image& image;
-  int channels;  ///< needed
-};
+using appearance::Surface;
+using appearance::SurfaceField;
 
-void check(const appearance::Appearance& appearance, const ShadeInputs& inputs) {
-  if (inputs.normals.empty()) throw Error("shading needs a picture of normals");
-  const Plane planes[] = {{"normals", inputs.normals, 3},
-                          {"tangents", inputs.tangents, 3},
-                          {"positions", inputs.positions, 3},
-                          {"occlusion", inputs.occlusion, 1},
-                          {"UVs", inputs.uvs, 2},
-                          {"curvature", inputs.curvature, 1},
-                          {"mesh normals", inputs.mesh_normals, 3}};
-  for (const Plane& plane : planes) {
-    if (plane.image.empty()) continue;
-    if (plane.image.width != inputs.normals.width || plane.image.height != inputs.normals.height) {
-      throw Error(fmt::format(
-          "the picture of {} is {} x {}, that of normals {} x {}; they must be of one size", plane.name,
-          plane.image.width, plane.image.height, inputs.normals.width, inputs.normals.height));
-    }
-    if (plane.image.channels < plane.channels) {
-      throw Error(fmt::format("the picture of {} has {} channels, {} are needed", plane.name,
-                              plane.image.channels, plane.channels));
-    }
-  }
-  const appearance::Appearance::Needs needs = appearance.needs();
-  const auto demand = [](bool needed, const Image& image, const char* name) {
-    if (needed && image.empty()) throw Error(fmt::format("the material needs a picture of {}", name));
-  };
-  demand(needs.tangents, inputs.tangents, "tangents");
-  demand(needs.uvs, inputs.uvs, "UVs");
-  demand(needs.curvature, inputs.curvature, "curvature");
+std::string plain_name(SurfaceField field) {
+  std::string name(appearance::surface_field(field).input);
+  for (char& c : name) c = c == '-' ? ' ' : c;
+  return name;
 }
 
-/// Fills `surface`; false for an empty pixel.
-bool surface_of(const ShadeInputs& inputs, int x, int y, appearance::Surface& surface) {
-  const Vec3 normal = xyz(inputs.normals, x, y);
-  if (!(normal.squaredNorm() > 0)) return false;
-  surface.normal = normal.normalized();
-  surface.mesh_normal = surface.normal;
-  if (!inputs.mesh_normals.empty()) {
-    const Vec3 mesh_normal = xyz(inputs.mesh_normals, x, y);
-    if (mesh_normal.squaredNorm() > 0) surface.mesh_normal = mesh_normal.normalized();
+void check(const appearance::Appearance& appearance, const ShadeInputs& inputs) {
+  const auto normals = inputs.find(SurfaceField::normal);
+  if (normals == inputs.end()) throw Error("shading needs a picture of normals");
+  const Image& first = normals->second;
+  for (const auto& [field, image] : inputs) {
+    if (image.width != first.width || image.height != first.height) {
+      throw Error(
+          fmt::format("the picture of {} is {} x {}, that of normals {} x {}; they must be of one size",
+                      plain_name(field), image.width, image.height, first.width, first.height));
+    }
+    const int needed = appearance::surface_field(field).components;
+    if (image.channels < needed) {
+      throw Error(fmt::format("the picture of {} has {} channels, {} are needed", plain_name(field),
+                              image.channels, needed));
+    }
   }
-  if (!inputs.positions.empty()) {
-    surface.position = xyz(inputs.positions, x, y);
+  const appearance::Needs needs = appearance.needs();
+  const auto demand = [&](bool needed, SurfaceField field) {
+    if (needed && !inputs.contains(field)) {
+      throw Error(fmt::format("the material needs a picture of {}", plain_name(field)));
+    }
+  };
+  demand(needs.tangents, SurfaceField::tangent);
+  demand(needs.uvs, SurfaceField::uv);
+  demand(needs.curvature, SurfaceField::curvature);
+  demand(needs.curvature, SurfaceField::curvature_tensor);
+}
+
+/// What is read from the pictures is made what Surface promises; false for an empty pixel.
+bool complete(const ShadeInputs& inputs, Surface& surface) {
+  if (!(surface.normal.squaredNorm() > 0)) return false;
+  surface.normal.normalize();
+  const bool smooth = inputs.contains(SurfaceField::mesh_normal) && surface.mesh_normal.squaredNorm() > 0;
+  surface.mesh_normal = smooth ? surface.mesh_normal.normalized() : surface.normal;
+  if (inputs.contains(SurfaceField::position)) {
     if (!(surface.position.squaredNorm() > 0)) return false;
     surface.view = -surface.position.normalized();
   }
   const Mat3 frame = eye_frame(surface.view);
   surface.eye_normal = seen_normal(frame * surface.normal);
-  if (!inputs.tangents.empty()) {
-    const Vec3 tangent = xyz(inputs.tangents, x, y);
-    if (!(tangent.squaredNorm() > 0)) return false;
-    surface.tangent_angle = tangent_angle(frame * tangent);
-    const Vec3 across = tangent - surface.normal * surface.normal.dot(tangent);
-    Vec3 other;
-    if (across.norm() > 1e-6 * tangent.norm()) {
-      surface.tangent = across.normalized();
-    } else {
-      frame_around(surface.normal, surface.tangent, other);
-    }
+  if (!inputs.contains(SurfaceField::tangent)) return true;
+  const Vec3 tangent = surface.tangent;
+  if (!(tangent.squaredNorm() > 0)) return false;
+  surface.tangent_angle = tangent_angle(frame * tangent);
+  const Vec3 across = tangent - surface.normal * surface.normal.dot(tangent);
+  Vec3 other;
+  if (across.norm() > 1e-6 * tangent.norm()) {
+    surface.tangent = across.normalized();
+  } else {
+    frame_around(surface.normal, surface.tangent, other);
   }
-  if (!inputs.occlusion.empty()) surface.occlusion = inputs.occlusion.at(x, y, 0);
-  if (!inputs.uvs.empty()) surface.uv = Vec2(inputs.uvs.at(x, y, 0), inputs.uvs.at(x, y, 1));
-  if (!inputs.curvature.empty()) surface.curvature = inputs.curvature.at(x, y, 0);
   return true;
 }
 
 }  // namespace
 
-Image shade(const appearance::Appearance& appearance, const ShadeInputs& inputs, const Progress& progress) {
+Image shade(const appearance::Appearance& appearance, const ShadeInputs& inputs,
+            const light::Lighting& lighting, const Progress& progress) {
   check(appearance, inputs);
-  Image result(inputs.normals.width, inputs.normals.height, 4);
+  const Image& normals = inputs.at(SurfaceField::normal);
+  Image result(normals.width, normals.height, 4);
   std::atomic<int> rows = 0;
   parallel_for(result.height, [&](int y) {
     for (int x = 0; x < result.width; ++x) {
-      appearance::Surface surface;
-      if (!surface_of(inputs, x, y, surface)) continue;
-      result.set_rgb(x, y, appearance.evaluate(surface).cast<float>());
+      Surface surface;
+      for (const auto& [field, image] : inputs) set_field(surface, field, image.pixel(x, y));
+      if (!complete(inputs, surface) || appearance.cover(surface) < 0.5) continue;
+      result.set_rgb(x, y, appearance.radiance(surface, lighting).cast<float>());
       result.at(x, y, 3) = 1;
     }
     report(progress, (++rows + 0.0) / result.height);

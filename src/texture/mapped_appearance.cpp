@@ -4,16 +4,19 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstring>
 
+#include "sateen/appearance/footprint.h"
+#include "sateen/brdf/bind.h"
 #include "sateen/brdf/ggx_surroundings.h"
-#include "sateen/core/parallel.h"
+#include "sateen/brdf/shading_frame.h"
+#include "sateen/core/colour.h"
 #include "sateen/core/picture_texture.h"
 
 namespace sateen::texture {
 namespace {
 
-constexpr double kLowestView = 1e-3;  // as layered.cpp lifts views behind the rim
+using appearance::Parameter;
+using appearance::ParameterValue;
 
 /// All levels as halves, rows from the bottom; missing channels are 0, alpha 1.
 std::shared_ptr<const TextureData> texture_of(const std::vector<Image>& levels) {
@@ -23,19 +26,18 @@ std::shared_ptr<const TextureData> texture_of(const std::vector<Image>& levels) 
   texture->height = levels[0].height;
   texture->wrap_u = texture->wrap_v = TextureData::Wrap::repeat;
   for (const Image& level : levels) {
-    std::vector<Half> texels(
-        static_cast<std::size_t>(level.width) * static_cast<std::size_t>(level.height) * 4, Half(0));
+    std::vector<float> texels(
+        static_cast<std::size_t>(level.width) * static_cast<std::size_t>(level.height) * 4, 0.0F);
     std::size_t at = 0;
     for (int y = level.height - 1; y >= 0; --y) {
       for (int x = 0; x < level.width; ++x, at += 4) {
         for (int c = 0; c < std::min(level.channels, 3); ++c) {
-          texels[at + static_cast<std::size_t>(c)] = Half(level.at(x, y, c));
+          texels[at + static_cast<std::size_t>(c)] = level.at(x, y, c);
         }
-        texels[at + 3] = Half(1);
+        texels[at + 3] = 1;
       }
     }
-    std::vector<std::byte>& bytes = texture->levels.emplace_back(texels.size() * sizeof(Half));
-    std::memcpy(bytes.data(), texels.data(), bytes.size());
+    texture->levels.push_back(half_bytes(texels));
   }
   return texture;
 }
@@ -47,121 +49,195 @@ void round_to_halves(std::vector<Image>& levels) {
   }
 }
 
+/// What a sampler reads at a level between two: bilinear in both, linear between them.
+template <std::size_t N>
+std::array<double, N> sample_level(const std::vector<Image>& levels, const Vec2& uv, double level) {
+  const double at = std::clamp(level, 0.0, static_cast<double>(levels.size()) - 1);
+  const auto low = static_cast<std::size_t>(at);
+  const double blend = at - static_cast<double>(low);
+  std::array<double, N> value{};
+  sample_repeating(levels[low], uv, value);
+  if (blend > 0) {
+    std::array<double, N> next{};
+    sample_repeating(levels[low + 1], uv, next);
+    for (std::size_t c = 0; c < N; ++c) value[c] += blend * (next[c] - value[c]);
+  }
+  return value;
+}
+
+/// shaders/appearance/mapped.glsl follows it line by line.
+class MappedPoint final : public appearance::Reflectance::Point {
+ public:
+  MappedPoint(const LobeMips& mips, const MappedMaterial& material, const brdf::GgxAlbedoTable& albedo,
+              const appearance::Surface& surface)
+      : material_(material), albedo_(albedo) {
+    const Vec2 uv = surface.uv.cwiseProduct(material.repeat);
+    Vec4 footprint = surface.footprint;
+    footprint << surface.footprint.head<2>().cwiseProduct(material.repeat),
+        surface.footprint.tail<2>().cwiseProduct(material.repeat);
+    const auto level = [&](const std::vector<Image>& levels) {
+      return appearance::map_level(footprint, levels[0].width, levels[0].height);
+    };
+    const auto xy = sample_level<2>(mips.normals, uv, level(mips.normals));
+    const auto channels = sample_level<3>(mips.anisotropy, uv, level(mips.anisotropy));
+    Vec3 n(2 * xy[0] - 1, 2 * xy[1] - 1, 0);
+    n.z() = std::sqrt(std::max(1 - n.squaredNorm(), 0.0));
+    n.x() *= surface.side;  // from behind, bumps are dents
+    n.y() *= mips.green_down ? -surface.side : surface.side;
+    lobe_ = brdf::roughness_from_matrix(
+        decode_anisotropy({channels[0], channels[1], channels[2]}, mips.encoding));
+    Mat3 axes;
+    axes << surface.tangent, surface.bitangent_sign * surface.normal.cross(surface.tangent), surface.normal;
+    axes_ = axes * normal_frame(n);
+    lobe_axes_ = axes_ * Eigen::AngleAxisd(lobe_.azimuth, Vec3::UnitZ()).toRotationMatrix();
+    lobe_.azimuth = 0;
+    view_ = brdf::lifted_view(lobe_axes_.transpose() * surface.view);
+  }
+
+  Vec3 lit(const Vec3& towards) const override {
+    const Vec3 light = lobe_axes_.transpose() * towards;
+    if (light.z() <= 0) return Vec3::Zero();
+    return brdf::diffuse_lit(material_.base, axes_.transpose() * towards) +
+           brdf::ggx_brdf(lobe_, material_.f0, light, view_) * light.z();
+  }
+
+  Vec3 surroundings(const light::Surroundings& surroundings) const override {
+    const Vec3 base =
+        brdf::diffuse_surroundings(material_.base, surroundings.harmonics, axes_, brdf::bare_bands());
+    if (!surroundings.environment) return base;
+    const Vec3 seen = brdf::ggx_surroundings(surroundings, lobe_, lobe_axes_, view_, material_.lobe_samples);
+    return base + seen.cwiseProduct(reflectance());
+  }
+
+  appearance::Reflectance::LightSample sample(const Vec3& u) const override {
+    Vec3 light;
+    if (u.z() < base_chance()) {
+      const double radius = std::sqrt(u.x());
+      const double angle = 2 * kPi * u.y();
+      light = axes_ * Vec3(radius * std::cos(angle), radius * std::sin(angle), std::sqrt(1 - u.x()));
+    } else {
+      const Vec3 half = brdf::ggx_sample_visible(lobe_, view_, u.head<2>());
+      light = lobe_axes_ * (2 * view_.dot(half) * half - view_);
+    }
+    return {light, pdf(light)};
+  }
+
+  double pdf(const Vec3& towards) const override {
+    const Vec3 light = lobe_axes_.transpose() * towards;
+    return base_chance() * std::max(light.z(), 0.0) / kPi +
+           (1 - base_chance()) * brdf::ggx_visible_pdf(lobe_, light, view_);
+  }
+
+ private:
+  Vec3 reflectance() const {
+    const brdf::GgxAlbedo albedo = albedo_(lobe_.alpha_t, lobe_.alpha_b, view_);
+    return material_.f0 * albedo.scale + Vec3::Constant(albedo.bias);
+  }
+  double base_chance() const {
+    const double base = 0.1 + luminance(material_.base.color);
+    return base / (base + 0.1 + luminance(reflectance()));
+  }
+
+  const MappedMaterial& material_;
+  const brdf::GgxAlbedoTable& albedo_;
+  Mat3 axes_;
+  Mat3 lobe_axes_;
+  Vec3 view_;
+  brdf::AnisotropicRoughness lobe_;  ///< along lobe_axes_
+};
+
+std::vector<appearance::ParameterField<MappedMaterial>> make_fields() {
+  using M = MappedMaterial;
+  std::vector<appearance::ParameterField<M>> fields;
+  for (const auto& field : brdf::diffuse_base_parameters()) {
+    Parameter parameter = field.parameter;
+    parameter.name = "base." + parameter.name;
+    fields.push_back({parameter, [&field](const M& m) { return field.get(m.base); },
+                      [&field](M& m, const ParameterValue& v) { field.set(m.base, v); }});
+  }
+  fields.push_back({{.name = "f0",
+                     .kind = Parameter::Kind::color,
+                     .standard = Vec3(0.04, 0.04, 0.04),
+                     .help = "reflectance at normal incidence"},
+                    [](const M& m) { return m.f0; },
+                    [](M& m, const ParameterValue& v) { m.f0 = std::get<Vec3>(v); }});
+  fields.push_back(
+      {{.name = "lobe_samples",
+        .kind = Parameter::Kind::integer,
+        .low = 1,
+        .high = 64,
+        .standard = 8.0,
+        .help = "lookups in the environment along the long highlight"},
+       [](const M& m) { return static_cast<double>(m.lobe_samples); },
+       [](M& m, const ParameterValue& v) { m.lobe_samples = static_cast<int>(std::get<double>(v)); }});
+  for (const int axis : {0, 1}) {
+    fields.push_back({{.name = axis == 0 ? "repeat_u" : "repeat_v",
+                       .low = 1e-3,
+                       .high = 1e4,
+                       .standard = 1.0,
+                       .help = axis == 0 ? "times the maps repeat over u in [0, 1]" : "the same over v"},
+                      [axis](const M& m) { return m.repeat[axis]; },
+                      [axis](M& m, const ParameterValue& v) { m.repeat[axis] = std::get<double>(v); }});
+  }
+  return fields;
+}
+
 }  // namespace
 
-GgxAlbedoTable::GgxAlbedoTable() : table_(kCosines * kAlphas, kAzimuths * kRatios, 2) {
-  const auto part = [](int i, int count) { return static_cast<double>(i) / (count - 1); };
-  parallel_for(table_.height, [&](int y) {
-    const double ratio = part(y / kAzimuths, kRatios);
-    const double azimuth = std::acos(part(y % kAzimuths, kAzimuths));
-    for (int x = 0; x < table_.width; ++x) {
-      const double root = part(x / kCosines, kAlphas);
-      const double alpha = std::max(root * root, brdf::kMinimumAlpha);
-      const double high = part(x % kCosines, kCosines);
-      const double cosine = std::max(high * high, kLowestView);
-      const double sine = std::sqrt(1 - cosine * cosine);
-      const brdf::GgxAlbedo albedo =
-          brdf::ggx_albedo({alpha, std::max(alpha * ratio * ratio, brdf::kMinimumAlpha), 0},
-                           {sine * std::cos(azimuth), sine * std::sin(azimuth), cosine}, 20);
-      table_.at(x, y, 0) = static_cast<float>(albedo.scale);
-      table_.at(x, y, 1) = static_cast<float>(albedo.bias);
-    }
-  });
+std::span<const appearance::ParameterField<MappedMaterial>> mapped_parameters() {
+  static const auto fields = make_fields();
+  return fields;
 }
 
-brdf::GgxAlbedo GgxAlbedoTable::operator()(double alpha_t, double alpha_b, const Vec3& view) const {
-  const double along = std::abs(view.x()) / std::max(view.head<2>().norm(), 1e-6);
-  const Vec2 tile(std::sqrt(alpha_t) * (kAlphas - 1), std::sqrt(alpha_b / alpha_t) * (kRatios - 1));
-  const int left = std::min(static_cast<int>(tile.x()), kAlphas - 2);
-  const int top = std::min(static_cast<int>(tile.y()), kRatios - 2);
-  brdf::GgxAlbedo sum;
-  for (int j = 0; j < 2; ++j) {
-    for (int i = 0; i < 2; ++i) {
-      std::array<double, 2> read{};
-      sample_bilinear(
-          table_, (left + i) * kCosines + std::sqrt(std::clamp(view.z(), 0.0, 1.0)) * (kCosines - 1) + 0.5,
-          (top + j) * kAzimuths + along * (kAzimuths - 1) + 0.5, read);
-      const double weight = (i == 0 ? 1 - (tile.x() - left) : tile.x() - left) *
-                            (j == 0 ? 1 - (tile.y() - top) : tile.y() - top);
-      sum.scale += weight * read[0];
-      sum.bias += weight * read[1];
-    }
-  }
-  return sum;
+MappedAppearance::MappedAppearance(LobeMips mips, MappedMaterial material)
+    : mips_(std::move(mips)), material_(std::move(material)) {
+  round_to_halves(mips_.normals);
+  round_to_halves(mips_.anisotropy);
+  normals_texture_ = texture_of(mips_.normals);
+  lobes_texture_ = texture_of(mips_.anisotropy);
+  albedo_texture_ = albedo_.texture();
 }
 
-std::shared_ptr<const TextureData> GgxAlbedoTable::texture() const {
-  auto texture = std::make_shared<TextureData>();
-  texture->format = TextureData::Format::rg32f;
-  texture->width = table_.width;
-  texture->height = table_.height;
-  std::vector<std::byte>& bytes = texture->levels.emplace_back(table_.data.size() * sizeof(float));
-  std::memcpy(bytes.data(), table_.data.data(), bytes.size());
-  return texture;
+std::unique_ptr<appearance::Reflectance::Point> MappedAppearance::at(
+    const appearance::Surface& surface) const {
+  return std::make_unique<MappedPoint>(mips_, material_, albedo_, surface);
 }
 
-MappedAppearance::MappedAppearance(Maps maps, std::unique_ptr<brdf::LayeredAppearance> base)
-    : maps_(std::move(maps)), base_(std::move(base)) {
-  round_to_halves(maps_.mips.normals);
-  round_to_halves(maps_.mips.anisotropy);
+appearance::ShaderModule MappedAppearance::shader() const {
+  return {.texts = {{"mapped.glsl", ""}},
+          .defines = {brdf::define(material_.base)},
+          .entry = "mapped",
+          .point = "MappedPoint"};
 }
 
-Vec3 MappedAppearance::evaluate(const appearance::Surface& surface) const {
-  const Vec2 uv = surface.uv.cwiseProduct(maps_.repeat);
-  std::array<double, 2> xy{};
-  std::array<double, 3> channels{};
-  sample_repeating(maps_.mips.normals[0], uv, xy);
-  sample_repeating(maps_.mips.anisotropy[0], uv, channels);
-  Vec3 n(2 * xy[0] - 1, 2 * xy[1] - 1, 0);
-  n.z() = std::sqrt(std::max(1 - n.squaredNorm(), 0.0));
-  n.x() *= surface.side;  // from behind, bumps are dents
-  n.y() *= maps_.mips.green_down ? -surface.side : surface.side;
-  const brdf::AnisotropicRoughness lobe = brdf::roughness_from_matrix(
-      decode_anisotropy({channels[0], channels[1], channels[2]}, maps_.mips.encoding));
-
-  Mat3 surface_frame;
-  surface_frame << surface.tangent, surface.bitangent_sign * surface.normal.cross(surface.tangent),
-      surface.normal;
-  const Mat3 turned = surface_frame * normal_frame(n);
-  appearance::Surface mapped = surface;
-  mapped.normal = turned.col(2);
-  mapped.tangent = turned.col(0);
-  Vec3 sum = base_->evaluate(mapped);
-
-  const Mat3 frame = turned * Eigen::AngleAxisd(lobe.azimuth, Vec3::UnitZ()).toRotationMatrix();
-  const brdf::AnisotropicRoughness roughness{lobe.alpha_t, lobe.alpha_b, 0};
-  Vec3 view = frame.transpose() * surface.view;
-  if (view.z() < kLowestView) view = Vec3(view.x(), view.y(), kLowestView).normalized();
-  const brdf::Lighting& lighting = base_->lighting();
-  for (const light::PunctualLight& lamp : lighting.lights) {
-    const light::ArrivingLight arriving = light::arriving_light(lamp, surface.position);
-    const Vec3 light = frame.transpose() * arriving.direction;
-    if (light.z() > 0) {
-      sum += arriving.irradiance.cwiseProduct(brdf::ggx_brdf(roughness, maps_.f0, light, view)) * light.z();
-    }
-  }
-  if (!lighting.environment) return sum;
-  const Vec3 seen = brdf::ggx_surroundings(*lighting.environment, lobe, frame, view, maps_.lobe_samples);
-  const brdf::GgxAlbedo albedo = albedo_(lobe.alpha_t, lobe.alpha_b, view);
-  return sum + surface.occlusion * seen.cwiseProduct(maps_.f0 * albedo.scale + Vec3::Constant(albedo.bias));
+appearance::ShaderValues MappedAppearance::values() const {
+  appearance::ShaderValues values;
+  brdf::bind_base(material_.base, brdf::bare_bands(), values);
+  brdf::set(values, "mapped_root",
+            appearance::UniformValue(mips_.encoding == AnisotropyEncoding::root ? 1 : 0));
+  brdf::set(values, "mapped_green", mips_.green_down ? -1.0 : 1.0);
+  brdf::set(values, "mapped_repeat", brdf::narrow(material_.repeat));
+  brdf::set(values, "mapped_f0", brdf::narrow(material_.f0));
+  brdf::set(values, "mapped_lobe_samples", appearance::UniformValue(material_.lobe_samples));
+  brdf::set_texture(values, "mapped_normals", normals_texture_);
+  brdf::set_texture(values, "mapped_lobes", lobes_texture_);
+  brdf::set_texture(values, "mapped_albedo", albedo_texture_);
+  return values;
 }
 
-appearance::ShaderBinding MappedAppearance::shader() const {
-  appearance::ShaderBinding binding = base_->shader();
-  binding.files.emplace_back("mapped.glsl");
-  binding.function = "mapped";
-  const auto set = [&](const char* name, appearance::UniformValue value) {
-    binding.uniforms.push_back({name, std::move(value)});
-  };
-  set("mapped_root", maps_.mips.encoding == AnisotropyEncoding::root ? 1 : 0);
-  set("mapped_green", maps_.mips.green_down ? -1.0f : 1.0f);
-  set("mapped_repeat", Vec2f(maps_.repeat.cast<float>()));
-  set("mapped_f0", Vec3f(maps_.f0.cast<float>()));
-  set("mapped_lobe_samples", base_->lighting().environment ? maps_.lobe_samples : 0);
-  binding.textures.push_back({"mapped_normals", texture_of(maps_.mips.normals)});
-  binding.textures.push_back({"mapped_lobes", texture_of(maps_.mips.anisotropy)});
-  binding.textures.push_back({"mapped_albedo", albedo_.texture()});
-  return binding;
+std::vector<Parameter> MappedAppearance::parameters() const {
+  return appearance::descriptions(mapped_parameters());
+}
+
+ParameterValue MappedAppearance::get(const std::string& name) const {
+  return appearance::field_named(mapped_parameters(), name).get(material_);
+}
+
+void MappedAppearance::set(const std::string& name, const ParameterValue& value) {
+  const auto& field = appearance::field_named(mapped_parameters(), name);
+  appearance::check(field.parameter, value);
+  field.set(material_, value);
+  changed();
 }
 
 }  // namespace sateen::texture

@@ -5,61 +5,49 @@
 #include <memory>
 
 #include "sateen/appearance/appearance.h"
-#include "sateen/brdf/layered/layered.h"
+#include "sateen/brdf/diffuse_base.h"
+#include "sateen/brdf/ggx_albedo_table.h"
 #include "sateen/texture/lobe_mips.h"
 
 namespace sateen::texture {
 
-/// The albedo of GGX by both alphas and the view, for lobes that change from texel to texel. No isotropic
-/// lobe stands for an anisotropic one here: the best mean of its alphas is 0.35 off at 10 : 1.
-class GgxAlbedoTable {
- public:
-  GgxAlbedoTable();
-  /// `view` lies in the frame of the lobe's axis; 1 >= alpha_t >= alpha_b > 0. Within 0.03 of ggx_albedo for
-  /// ratios up to 10 : 1, alpha_t of 0.04 or more and cosines of 0.02 or more.
-  brdf::GgxAlbedo operator()(double alpha_t, double alpha_b, const Vec3& view) const;
-  /// rg32f, scale and bias: tiles side by side, each across the root of the view's cosine and down the
-  /// cosine of its azimuth; tiles across the root of alpha_t and down that of alpha_b / alpha_t. Every
-  /// coordinate runs from 0 to 1 between the middles of the first and last texel or tile.
-  std::shared_ptr<const TextureData> texture() const;
-  static constexpr int kCosines = 16;
-  static constexpr int kAzimuths = 9;
-  static constexpr int kAlphas = 12;
-  static constexpr int kRatios = 8;
-
- private:
-  Image table_;
+/// The parameters of a mapped material besides its maps.
+struct MappedMaterial {
+  Vec2 repeat{1, 1};  ///< times the maps repeat over uv in [0, 1]
+  Vec3 f0{0.04, 0.04, 0.04};
+  int lobe_samples = 8;  ///< lookups along the stretched lobe in environment light
+  brdf::DiffuseBase base;
 };
 
-/// A surface whose normal and GGX lobe come from a filtered chain of maps (lobe_chain.h), over a base, under
-/// the lights of a layered material. The maps lie along the mesh's U and V.
-class MappedAppearance : public appearance::Appearance {
+/// A surface whose normal and GGX lobe come from a filtered chain of maps (lobe_chain.h), over a diffuse
+/// base. The maps lie along the mesh's U and V, and are read at the level the point's footprint asks for.
+class MappedAppearance final : public appearance::Reflectance {
  public:
-  struct Maps {
-    LobeMips mips;
-    Vec2 repeat{1, 1};  ///< times the maps repeat over uv in [0, 1]
-    Vec3 f0{0.04, 0.04, 0.04};
-    int lobe_samples = 8;  ///< lookups along the stretched lobe in environment light
-  };
+  MappedAppearance(LobeMips mips, MappedMaterial material);
 
-  /// `base` holds the diffuse base and all lights; it has neither reflection nor fuzz.
-  MappedAppearance(Maps maps, std::unique_ptr<brdf::LayeredAppearance> base);
+  /// A material from JSON text with "model": "mapped" (docs/materials.md); lighting keys are left to others.
+  /// `path` is what messages call it and where its maps lie. Throws Error naming file, key and value.
+  static std::unique_ptr<MappedAppearance> parse(const std::string& json, const std::filesystem::path& path);
 
-  /// A material file with "model": "mapped" (docs/materials.md). Throws Error naming file, key and value.
-  static std::unique_ptr<appearance::Appearance> read(const std::filesystem::path& path);
+  std::unique_ptr<Point> at(const appearance::Surface& surface) const override;
+  appearance::ShaderModule shader() const override;
+  appearance::ShaderValues values() const override;
+  appearance::Needs needs() const override { return {.tangents = true, .uvs = true}; }
 
-  /// Reads level 0: a point has no footprint. The shader reads the level that the pixel asks for.
-  Vec3 evaluate(const appearance::Surface& surface) const override;
-  appearance::ShaderBinding shader() const override;
-  Needs needs() const override { return {.tangents = true, .uvs = true}; }
-  bool set_environment(const Image& latitude_longitude) override {
-    return base_->set_environment(latitude_longitude);
-  }
+  std::vector<appearance::Parameter> parameters() const override;
+  appearance::ParameterValue get(const std::string& name) const override;
+  void set(const std::string& name, const appearance::ParameterValue& value) override;
 
  private:
-  Maps maps_;
-  std::unique_ptr<brdf::LayeredAppearance> base_;
-  GgxAlbedoTable albedo_;
+  LobeMips mips_;
+  MappedMaterial material_;
+  brdf::GgxAlbedoTable albedo_;
+  std::shared_ptr<const TextureData> normals_texture_;
+  std::shared_ptr<const TextureData> lobes_texture_;
+  std::shared_ptr<const TextureData> albedo_texture_;
 };
+
+/// base.model, base.color, base.azimuth, f0, repeat_u, repeat_v, lobe_samples.
+std::span<const appearance::ParameterField<MappedMaterial>> mapped_parameters();
 
 }  // namespace sateen::texture

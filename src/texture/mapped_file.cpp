@@ -39,30 +39,18 @@ LobeMips filtered(appearance::JsonObject& json, const fs::path& normals, const f
 
 }  // namespace
 
-std::unique_ptr<appearance::Appearance> MappedAppearance::read(const fs::path& path) {
-  static const std::array<const char*, 13> kOwn = {
-      "model",  "name",   "normals", "anisotropy", "roughness_map", "roughness", "encoding", "green_down",
-      "method", "kernel", "repeat",  "f0",         "lobe_samples"};
-  const nlohmann::json value = appearance::read_json(path);
-  if (!value.is_object()) throw Error(fmt::format("{}: is no JSON object", path.string()));
-  nlohmann::json own = nlohmann::json::object();
-  nlohmann::json base = value;
-  for (const char* key : kOwn) {
-    if (!value.contains(key)) continue;
-    own[key] = value[key];
-    base.erase(key);
-  }
-  appearance::JsonObject json(own, path.string());
+std::unique_ptr<MappedAppearance> MappedAppearance::parse(const std::string& text, const fs::path& path) {
+  const nlohmann::json value = nlohmann::json::parse(text);
+  appearance::JsonObject json(value, path.string());
   json.text("model", "mapped");
   json.text("name", "");
   for (const char* key : {"specular", "fuzz", "simple_fuzziness"}) {
-    if (base.contains(key)) {
+    if (json.has(key)) {
       throw Error(fmt::format("{}: \"{}\" does not go with maps; they hold the reflection (\"f0\")",
                               path.string(), key));
     }
   }
 
-  Maps maps;
   const fs::path folder = path.parent_path();
   const auto file = [&](const char* key) { return json.has(key) ? folder / json.text(key, "") : fs::path(); };
   const fs::path normals = file("normals");
@@ -72,13 +60,22 @@ std::unique_ptr<appearance::Appearance> MappedAppearance::read(const fs::path& p
     throw Error(
         fmt::format("{}: \"normals\" and \"anisotropy\" are both .ktx2 or both pictures", path.string()));
   }
-  maps.mips = stored ? read_lobe_mips(normals, anisotropy) : filtered(json, normals, anisotropy, folder);
-  maps.repeat = json.pair("repeat", {1, 1}, {1e-3, 1e4});
-  maps.f0 = json.colour("f0", maps.f0);
-  maps.lobe_samples = static_cast<int>(json.number("lobe_samples", maps.lobe_samples, {1, 64}));
+  LobeMips mips = stored ? read_lobe_mips(normals, anisotropy) : filtered(json, normals, anisotropy, folder);
+  MappedMaterial material;
+  if (json.has("base")) {
+    appearance::JsonObject base(json.raw("base"), fmt::format("{}, base", path.string()));
+    for (const auto& field : brdf::diffuse_base_parameters())
+      field.set(material.base, base.read(field.parameter));
+    base.finish();
+  }
+  for (const auto& field : mapped_parameters()) {
+    const std::string& name = field.parameter.name;
+    if (name == "f0" || name == "lobe_samples") field.set(material, json.read(field.parameter));
+  }
+  material.repeat = json.pair("repeat", {1, 1}, {1e-3, 1e4});
+  json.allow({"normals", "anisotropy", "base", "lights", "environment", "ambient"});
   json.finish();
-  return std::make_unique<MappedAppearance>(std::move(maps),
-                                            brdf::LayeredAppearance::parse(base.dump(), path));
+  return std::make_unique<MappedAppearance>(std::move(mips), std::move(material));
 }
 
 }  // namespace sateen::texture

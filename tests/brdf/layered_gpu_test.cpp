@@ -18,15 +18,15 @@ using test::glossy;
 constexpr double kTolerance = 4e-3;
 
 void expect_gpu_agrees(const LayeredMaterial& material) {
-  test::expect_matches_evaluator(
-      test::torus(), std::make_shared<const LayeredAppearance>(material, everything()), kTolerance);
+  test::expect_matches_evaluator(test::torus(), std::make_shared<LayeredAppearance>(material), kTolerance, {},
+                                 {}, everything());
 }
 
 TEST(LayeredOnGpu, FibreDiffuseEqualsTheEvaluator) {
   LayeredMaterial material;
-  material.base_azimuth = 0.6;
-  for (const auto base : {LayeredMaterial::Base::fibre_diffuse, LayeredMaterial::Base::maximum_normal}) {
-    material.base = base;
+  material.base.azimuth = 0.6;
+  for (const auto base : {DiffuseBase::Model::fibre_diffuse, DiffuseBase::Model::maximum_normal}) {
+    material.base.model = base;
     expect_gpu_agrees(material);
   }
 }
@@ -82,10 +82,10 @@ TEST(LayeredOnGpu, FuzzWithSmoothedNormalsEqualsTheEvaluator) {
   for (const double smoothing : {0.0, 0.6, 1.0}) {
     material.fuzz_smoothing = smoothing;
     scene::Scene scene =
-        test::scene_of(test::torus(), std::make_shared<const LayeredAppearance>(material, everything()));
+        test::scene_of(test::torus(), std::make_shared<LayeredAppearance>(material), {}, everything());
     scene.materials[0].normal_map.texture = waves();
     const render::Picture frame = test::render(scene, {});
-    const test::Difference difference = test::against_evaluator(frame, scene.materials, kTolerance);
+    const test::Difference difference = test::against_evaluator(frame, scene, kTolerance);
     EXPECT_GT(difference.pixels, 1000);
     EXPECT_EQ(difference.failing, 0) << "smoothing " << smoothing << ": " << difference.largest;
   }
@@ -97,8 +97,8 @@ TEST(LayeredOnGpu, FuzzWithAMapOfFibresEqualsTheEvaluator) {
   material.fuzz_fibres = brushed();
   for (const FuzzPhase phase : {FuzzPhase::sggx, FuzzPhase::schlick}) {
     material.fuzz->phase = phase;
-    test::expect_matches_evaluator(
-        test::plane(), std::make_shared<const LayeredAppearance>(material, everything()), kTolerance);
+    test::expect_matches_evaluator(test::plane(), std::make_shared<LayeredAppearance>(material), kTolerance,
+                                   {}, {}, everything());
   }
 }
 

@@ -11,9 +11,9 @@
 
 namespace sateen::test {
 
-inline const brdf::Lighting& everything() {
-  static const brdf::Lighting shared = [] {
-    brdf::Lighting lighting;
+inline const light::Lighting& everything() {
+  static const light::Lighting shared = [] {
+    light::Lighting lighting;
     light::PunctualLight key;
     key.direction = Vec3(-0.4, 0.6, 0.7).normalized();
     light::PunctualLight point;
@@ -26,22 +26,22 @@ inline const brdf::Lighting& everything() {
     spot.direction = Vec3(0.2, -0.4, -0.5).normalized();
     spot.inner_cone = 0.2;
     spot.outer_cone = 0.7;
-    lighting.lights = {key, point, spot};
-    lighting.set_environment(sky());
+    lighting.lamps = {key, point, spot};
+    lighting.surroundings = light::make_surroundings(sky());
     return lighting;
   }();
   return shared;
 }
 
-inline brdf::Lighting uniform_light() {
-  brdf::Lighting lighting;
-  lighting.set_environment(Image(64, 32, 3, 1));
+inline light::Lighting uniform_light() {
+  light::Lighting lighting;
+  lighting.surroundings = light::make_surroundings(Image(64, 32, 3, 1));
   return lighting;
 }
 
 inline brdf::LayeredMaterial fuzzy(brdf::FuzzPhase phase = brdf::FuzzPhase::sggx) {
   brdf::LayeredMaterial material;
-  material.base_colour = {0.3, 0.1, 0.1};
+  material.base.color = {0.3, 0.1, 0.1};
   material.fuzz = brdf::FuzzParameters{};
   material.fuzz->phase = phase;
   material.fuzz->alpha = 0.35;
@@ -57,6 +57,17 @@ inline brdf::LayeredMaterial glossy() {
   material.specular = brdf::GgxParameters{{0.2, 0.6, radians(25)}, {0.9, 0.6, 0.3}, true};
   return material;
 }
+
+/// A material under light.
+struct Lit {
+  brdf::LayeredAppearance appearance;
+  light::Lighting lighting;
+  Lit(brdf::LayeredMaterial material, light::Lighting light)
+      : appearance(std::move(material)), lighting(std::move(light)) {}
+  Vec3 evaluate(const appearance::Surface& surface) const {
+    return appearance.radiance(surface, lighting, {});
+  }
+};
 
 /// A surface point facing the viewer's z axis, seen from `view`.
 inline appearance::Surface flat(const Vec3& view) {

@@ -10,7 +10,9 @@
 #include "brdf/layered_materials.h"
 #include "brdf/random_directions.h"
 #include "sateen/brdf/fibre_diffuse.h"
+#include "sateen/brdf/fuzz_approximations.h"
 #include "sateen/brdf/fuzz_integrals.h"
+#include "sateen/brdf/fuzz_tilt_table.h"
 #include "sateen/core/error.h"
 #include "sateen/io/image.h"
 #include "sateen/light/environment.h"
@@ -25,6 +27,7 @@ using test::everything;
 using test::flat;
 using test::fuzzy;
 using test::glossy;
+using test::Lit;
 using test::random_up;
 using test::sky;
 using test::summed;
@@ -33,14 +36,14 @@ using test::uniform_light;
 TEST(Layered, AWhiteFurnaceIsWhite) {
   std::mt19937 random(1);
   LayeredMaterial lambert;
-  lambert.base_colour = Vec3::Ones();
+  lambert.base.color = Vec3::Ones();
   LayeredMaterial fibres = lambert;
-  fibres.base = LayeredMaterial::Base::fibre_diffuse;
+  fibres.base.model = DiffuseBase::Model::fibre_diffuse;
   LayeredMaterial metal;
-  metal.base_colour = Vec3::Zero();
+  metal.base.color = Vec3::Zero();
   metal.specular = GgxParameters{{0.5, 0.2, 0}, Vec3::Ones(), true};
   for (const LayeredMaterial& material : {lambert, fibres, metal}) {
-    const LayeredAppearance appearance(material, uniform_light());
+    const Lit appearance(material, uniform_light());
     for (int i = 0; i < 20; ++i) {
       EXPECT_NEAR(appearance.evaluate(flat(random_up(random, 0.1))).x(), 1, 6e-3);
     }
@@ -50,11 +53,11 @@ TEST(Layered, AWhiteFurnaceIsWhite) {
 TEST(Layered, FuzzInUniformLightIsItsIntegral) {
   std::mt19937 random(2);
   LayeredMaterial material = fuzzy();
-  material.base_colour = Vec3::Zero();
+  material.base.color = Vec3::Zero();
   material.fuzz->colour = Vec3::Ones();
-  const LayeredAppearance table(material, uniform_light());
+  const Lit table(material, uniform_light());
   material.fuzz_slides = true;
-  const LayeredAppearance slides(material, uniform_light());
+  const Lit slides(material, uniform_light());
   double worst_table = 0;
   double worst_slides = 0;
   for (int i = 0; i < 60; ++i) {
@@ -72,7 +75,7 @@ TEST(Layered, UprightFuzzHasNoDirection) {
   std::mt19937 random(14);
   LayeredMaterial material = fuzzy();
   material.fuzz->tilt = 0;
-  const LayeredAppearance upright(material, everything());
+  const Lit upright(material, everything());
   for (int i = 0; i < 20; ++i) {
     appearance::Surface surface = flat(random_up(random, 0.1));
     const Vec3 expected = upright.evaluate(surface);
@@ -85,19 +88,19 @@ TEST(Layered, AMapOfOneFibreIsThatFibre) {
   // Between the tilts of the tables, in all lights; the rest of both is the same.
   std::mt19937 random(12);
   LayeredMaterial material = fuzzy();
-  material.base_colour = Vec3::Ones();
+  material.base.color = Vec3::Ones();
   double worst = 0;
   for (const double tilt : {0.0, 3.0, 24.0, 50.0, 80.0, 90.0}) {
     material.fuzz->tilt = radians(tilt);
     material.fuzz_fibres.reset();
-    const LayeredAppearance one(material, everything());
+    const Lit one(material, everything());
     const Vec3 fibre = material.fuzz->fibre();
     auto picture = std::make_shared<Image>(2, 3, 2);
     for (int i = 0; i < 12; ++i) {
       picture->data[static_cast<std::size_t>(i)] = static_cast<float>(0.5 + 0.5 * fibre[i % 2]);
     }
     material.fuzz_fibres = FibreMap{picture, {3, 2}};
-    const LayeredAppearance map(material, everything());
+    const Lit map(material, everything());
     for (int i = 0; i < 20; ++i) {
       appearance::Surface surface = flat(random_up(random, 0.1));
       surface.uv = {0.3 * i, 0.7};
@@ -136,7 +139,7 @@ TEST(Layered, FuzzOfAMapInUniformLightIsItsIntegral) {
 
 TEST(Layered, SmoothingTurnsTheFuzzTowardsTheMeshsNormalAndLeavesTheBase) {
   LayeredMaterial material = fuzzy();
-  material.base_colour = Vec3::Zero();
+  material.base.color = Vec3::Zero();
   LayeredMaterial smooth = material;
   smooth.fuzz_smoothing = 1;
   appearance::Surface bumpy = flat(Vec3(0.2, -0.3, 0.9).normalized());
@@ -144,7 +147,7 @@ TEST(Layered, SmoothingTurnsTheFuzzTowardsTheMeshsNormalAndLeavesTheBase) {
   bumpy.tangent = (Vec3::UnitX() - bumpy.normal * bumpy.normal.x()).normalized();
   const appearance::Surface plain = flat(bumpy.view);
   const auto look = [](const LayeredMaterial& m, const appearance::Surface& s) {
-    return LayeredAppearance(m, everything()).evaluate(s);
+    return Lit(m, everything()).evaluate(s);
   };
   // The tangent of the bumpy surface, brought back, is the plain one's up to a turn that a fibre along it
   // sees.
@@ -156,34 +159,34 @@ TEST(Layered, SmoothingTurnsTheFuzzTowardsTheMeshsNormalAndLeavesTheBase) {
   EXPECT_GT((look(material, bumpy) - look(material, turned)).norm(), 0.01);
   // Half way lies between; without fuzz nothing changes.
   smooth.fuzz->density = material.fuzz->density = 0;
-  smooth.base_colour = material.base_colour = Vec3::Ones();
+  smooth.base.color = material.base.color = Vec3::Ones();
   EXPECT_LT((look(smooth, bumpy) - look(material, bumpy)).norm(), 1e-6);
 }
 
 TEST(Layered, SurroundingsAreCloseToTheIntegralOfTheBrdf) {
   std::mt19937 random(3);
   const Image light = sky();
-  Lighting lighting;
-  lighting.set_environment(light);
+  light::Lighting lighting;
+  lighting.surroundings = light::make_surroundings(light);
   LayeredMaterial gloss;
-  gloss.base_colour = Vec3::Zero();
+  gloss.base.color = Vec3::Zero();
   gloss.specular = GgxParameters{{0.15, 0.6, 0.4}, {0.9, 0.6, 0.3}, false};
   LayeredMaterial fuzz = fuzzy();
-  fuzz.base_colour = Vec3::Zero();
+  fuzz.base.color = Vec3::Zero();
   LayeredMaterial fibres;
-  fibres.base = LayeredMaterial::Base::fibre_diffuse;
-  const LayeredAppearance gloss_look(gloss, lighting);
-  const LayeredAppearance fuzz_look(fuzz, lighting);
-  const LayeredAppearance fibre_look(fibres, lighting);
+  fibres.base.model = DiffuseBase::Model::fibre_diffuse;
+  const Lit gloss_look(gloss, lighting);
+  const Lit fuzz_look(fuzz, lighting);
+  const Lit fibre_look(fibres, lighting);
   LayeredMaterial slides = fuzz;
   slides.fuzz_slides = true;
-  const LayeredAppearance slides_look(slides, lighting);
+  const Lit slides_look(slides, lighting);
   // The sky as its nine coefficients see it: what is left of the error there is the lobe's, not the bands'.
   Image bands = light;
   for (int y = 0; y < bands.height; ++y) {
     for (int x = 0; x < bands.width; ++x) {
       const Vec3 d = light::environment_direction({(x + 0.5) / bands.width, (y + 0.5) / bands.height});
-      bands.set_rgb(x, y, lighting.harmonics.radiance(d).cast<float>());
+      bands.set_rgb(x, y, lighting.surroundings.harmonics.radiance(d).cast<float>());
     }
   }
   double band_error = 0;
@@ -223,11 +226,11 @@ TEST(Layered, DiffuseUnderFuzzInUniformLightIsItsIntegral) {
   std::mt19937 random(6);
   LayeredMaterial material = fuzzy();
   material.fuzz->density = 0.4;
-  material.base_colour = Vec3::Ones();
+  material.base.color = Vec3::Ones();
   LayeredMaterial black = material;
-  black.base_colour = Vec3::Zero();
-  const LayeredAppearance whole(material, uniform_light());
-  const LayeredAppearance fuzz_alone(black, uniform_light());
+  black.base.color = Vec3::Zero();
+  const Lit whole(material, uniform_light());
+  const Lit fuzz_alone(black, uniform_light());
   for (int i = 0; i < 4; ++i) {
     const Vec3 v = random_up(random, 0.2);
     const Vec3 base = whole.evaluate(flat(v)) - fuzz_alone.evaluate(flat(v));
@@ -252,10 +255,10 @@ TEST(Layered, SpecularProbesUnderFuzzAreCloseToTheIntegral) {
   // The reflection alone is what is left when the same fuzz over black is taken away.
   std::mt19937 random(7);
   const Image light = sky();
-  Lighting lighting;
-  lighting.set_environment(light);
+  light::Lighting lighting;
+  lighting.surroundings = light::make_surroundings(light);
   LayeredMaterial material = fuzzy();
-  material.base_colour = Vec3::Zero();
+  material.base.color = Vec3::Zero();
   const FuzzParameters fuzz = *material.fuzz;
   const FibreTable down = make_fuzz_table(fuzz).scattered_down;
   const double turn = fuzz.azimuth;
@@ -268,9 +271,8 @@ TEST(Layered, SpecularProbesUnderFuzzAreCloseToTheIntegral) {
     slides.fuzz_slides = true;
     LayeredMaterial bare_slides = bare;
     bare_slides.fuzz_slides = true;
-    const LayeredAppearance looks[2][2] = {
-        {LayeredAppearance(material, lighting), LayeredAppearance(bare, lighting)},
-        {LayeredAppearance(slides, lighting), LayeredAppearance(bare_slides, lighting)}};
+    const Lit looks[2][2] = {{Lit(material, lighting), Lit(bare, lighting)},
+                             {Lit(slides, lighting), Lit(bare_slides, lighting)}};
     double errors[2] = {0, 0};
     constexpr int kViews = 10;
     for (int i = 0; i < kViews; ++i) {
@@ -299,10 +301,10 @@ TEST(Layered, SpecularProbesUnderFuzzAreCloseToTheIntegral) {
 TEST(Layered, SeveralLobeSamplesBeatOne) {
   std::mt19937 random(4);
   const Image light = sky();
-  Lighting lighting;
-  lighting.set_environment(light);
+  light::Lighting lighting;
+  lighting.surroundings = light::make_surroundings(light);
   LayeredMaterial material;
-  material.base_colour = Vec3::Zero();
+  material.base.color = Vec3::Zero();
   material.specular = GgxParameters{{0.08, 0.5, 0.4}, Vec3::Ones(), false};
   double errors[2] = {0, 0};
   for (int i = 0; i < 10; ++i) {
@@ -311,7 +313,7 @@ TEST(Layered, SeveralLobeSamplesBeatOne) {
         [&](const Vec3& u) { return ggx_brdf(material.specular->roughness, Vec3::Ones(), u, v); }, light);
     for (int j = 0; j < 2; ++j) {
       material.lobe_samples = j == 0 ? 1 : 8;
-      errors[j] += (LayeredAppearance(material, lighting).evaluate(flat(v)) - exact).norm() / exact.norm();
+      errors[j] += (Lit(material, lighting).evaluate(flat(v)) - exact).norm() / exact.norm();
     }
   }
   EXPECT_LT(errors[1], 0.7 * errors[0]);
@@ -319,7 +321,7 @@ TEST(Layered, SeveralLobeSamplesBeatOne) {
 
 TEST(Layered, AnisotropyStaysVisibleInAmbientLightAlone) {
   LayeredMaterial material = fuzzy();
-  material.base_colour = Vec3::Zero();
+  material.base.color = Vec3::Zero();
   material.fuzz->azimuth = 0;
   material.fuzz->colour = Vec3::Ones();
   const Vec3 v = Vec3(0.7, 0, 0.7).normalized();
@@ -331,7 +333,7 @@ TEST(Layered, AnisotropyStaysVisibleInAmbientLightAlone) {
   };
   const auto shaded = [&](bool slides) {
     material.fuzz_slides = slides;
-    const LayeredAppearance appearance(material, uniform_light());
+    const Lit appearance(material, uniform_light());
     std::array<double, 3> radiance{};
     for (std::size_t i = 0; i < 3; ++i) {
       appearance::Surface surface = flat(v);
@@ -359,24 +361,22 @@ TEST(Layered, NoFuzzIsTheBaseAlone) {
   thin.fuzz = FuzzParameters{};
   thin.fuzz->density = 0;
   const appearance::Surface surface = flat(Vec3(0.3, 0.2, 0.8).normalized());
-  EXPECT_LT((LayeredAppearance(bare, everything()).evaluate(surface) -
-             LayeredAppearance(thin, everything()).evaluate(surface))
-                .norm(),
+  EXPECT_LT((Lit(bare, everything()).evaluate(surface) - Lit(thin, everything()).evaluate(surface)).norm(),
             1e-6);
 }
 
 TEST(Layered, MaterialFilesAreReadAndWrongOnesNamed) {
   for (const auto& entry : std::filesystem::directory_iterator(test::examples() / "materials")) {
     if (entry.path().extension() != ".json") continue;
-    const auto appearance = scene::load_appearance(entry.path());
-    EXPECT_TRUE(appearance->evaluate(flat(Vec3::UnitZ())).allFinite()) << entry.path();
-    EXPECT_TRUE(appearance->set_environment(Image(16, 8, 3, 1)));
+    const auto material = scene::load_material(entry.path());
+    EXPECT_TRUE(material.appearance->radiance(flat(Vec3::UnitZ()), everything()).allFinite()) << entry.path();
+    EXPECT_TRUE(material.appearance->lit());
   }
   const test::TemporaryFolder folder;
   const auto message = [&](const std::string& text) -> std::string {
     std::ofstream(folder / "m.json") << text;
     try {
-      scene::load_appearance(folder / "m.json");
+      appearance::make_lighting(scene::load_material(folder / "m.json").lighting);
     } catch (const Error& error) {
       return error.what();
     }

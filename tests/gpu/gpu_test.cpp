@@ -31,7 +31,9 @@ Image draw(std::string_view fragment, const TextureData* texture = nullptr, int 
   glGenVertexArrays(1, &vertex_array);
   glBindVertexArray(vertex_array);
   program.use();
-  program.set("size", Vec2f(static_cast<float>(width), static_cast<float>(height)));
+  if (program.declares("size")) {
+    program.set("size", Vec2f(static_cast<float>(width), static_cast<float>(height)));
+  }
   std::unique_ptr<Texture> bound;
   if (texture != nullptr) {
     bound = std::make_unique<Texture>(*texture);
@@ -90,13 +92,26 @@ TEST(Program, ErrorsNameFileAndLine) {
   }
 }
 
+TEST(Program, RefusesUniformsThatItsTextDoesNotDeclare) {
+  const Context context;
+  const ShaderFile file{
+      "test.frag",
+      "out vec4 c;\nuniform float used;\nuniform highp vec3 unread;\nvoid main() { c = vec4(used); }"};
+  const Program program(std::array{shader_file("picture.vert")}, std::array{file});
+  program.use();
+  program.set("used", 1.0f);
+  program.set("unread", Vec3f(1, 2, 3));  // the driver leaves it out
+  EXPECT_THROW(program.set("usde", 1.0f), Error);
+}
+
 TEST(Shaders, NeededFilesComeFirstAndOnce) {
   const std::vector<std::string> names{"surface.glsl", "matcap.glsl", "surface.frag"};
   const auto files = with_needed(names);
   std::vector<std::string> order;
   for (const ShaderFile& file : files) order.emplace_back(file.name);
-  EXPECT_THAT(order, testing::ElementsAre("surface.glsl", "matcap.glsl", "switches.glsl", "eye_frame.glsl",
-                                          "constant.glsl", "surface.frag"));
+  EXPECT_THAT(order,
+              testing::ElementsAre("surface.glsl", "matcap.glsl", "switches.glsl", "surface_varyings.glsl",
+                                   "surface_packed.glsl", "eye_frame.glsl", "constant.glsl", "surface.frag"));
   EXPECT_THROW(shader_file("nothing.glsl"), Error);
 }
 

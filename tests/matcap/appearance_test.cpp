@@ -43,9 +43,9 @@ EditedMatcap changed(const std::string& json) {
 void expect_matches(EditedMatcap matcap, ModulationMaps maps) {
   test::Shot picture;
   picture.width = picture.height = 96;
-  test::expect_matches_evaluator(
-      test::torus(), std::make_shared<const DecomposedAppearance>(std::move(matcap), std::move(maps)),
-      kTolerance, {}, picture);
+  test::expect_matches_evaluator(test::torus(),
+                                 std::make_shared<DecomposedAppearance>(std::move(matcap), std::move(maps)),
+                                 kTolerance, {}, picture);
 }
 
 /// Without textures the GPU reads a table of normals, four times the maps' size across. It must lie between
@@ -61,8 +61,8 @@ void expect_between_neighbours(const scene::Scene& scene) {
     for (int x = 0; x < 96; ++x) {
       const auto surface = scene::surface_at(*frame.surfaces, x, y);
       if (!surface) continue;
-      const appearance::Appearance& appearance =
-          *scene.materials[static_cast<std::size_t>(surface->material)].appearance;
+      const auto& appearance = dynamic_cast<const appearance::BakedLight&>(
+          *scene.materials[static_cast<std::size_t>(surface->material)].appearance);
       const Vec3 shown = frame.colour.rgb(x, y).cast<double>();
       Vec3 least = Vec3::Constant(std::numeric_limits<double>::infinity());
       Vec3 most = -least;
@@ -86,8 +86,7 @@ void expect_between_neighbours(const scene::Scene& scene) {
 }
 
 void expect_between_neighbours(const EditedMatcap& matcap) {
-  expect_between_neighbours(
-      test::scene_of(test::torus(), std::make_shared<const DecomposedAppearance>(matcap)));
+  expect_between_neighbours(test::scene_of(test::torus(), std::make_shared<DecomposedAppearance>(matcap)));
 }
 
 TEST(DecomposedOnGpu, EqualsTheEvaluator) {
@@ -130,9 +129,9 @@ TEST(DecomposedOnGpu, SeveralByMaterialAlignedAndTurnedTogetherEqualTheEvaluator
   scene.materials.resize(2);
   const MatcapDecomposition lead =
       decompose(test::example_matcap("lead", 128), inscribed_disc(128, 128), {}, "lead");
-  scene.materials[0].appearance = std::make_shared<const DecomposedAppearance>(changed(together));
+  scene.materials[0].appearance = std::make_shared<DecomposedAppearance>(changed(together));
   scene.materials[1].appearance =
-      std::make_shared<const DecomposedAppearance>(apply_edits(lead, parse_edits(together, {}, "edits")));
+      std::make_shared<DecomposedAppearance>(apply_edits(lead, parse_edits(together, {}, "edits")));
   expect_between_neighbours(scene);
 }
 
@@ -143,13 +142,13 @@ TEST(DecomposedAppearance, IsLoadedByTheRegistryAsTextureAndAsMaterial) {
   surface.eye_normal = normal_on_disc({0.2, -0.3});
   surface.occlusion = 0.5;
   const Vec3 expected = 0.5 * evaluate(unedited(carpaint()), surface.eye_normal);
-  EXPECT_TRUE(scene::load_appearance(folder / "paint.ktx2")->evaluate(surface).isApprox(expected, 2e-3));
+  EXPECT_TRUE(scene::load_appearance(folder / "paint.ktx2")->radiance(surface, {}).isApprox(expected, 2e-3));
   io::write_text(folder / "paint.json", R"({"model": "matcap-decomposition", "matcap": "paint.ktx2",
                                         "edits": [{"edit": "intensity", "part": "low", "factor": 0}]})");
   EditedMatcap dark = unedited(carpaint());
   dark.look(Part::low).intensity = 0;
   EXPECT_TRUE(scene::load_appearance(folder / "paint.json")
-                  ->evaluate(surface)
+                  ->radiance(surface, {})
                   .isApprox(0.5 * evaluate(dark, surface.eye_normal), 2e-3));
   io::write_text(folder / "odd.json",
                  R"({"model": "matcap-decomposition", "matcap": "paint.ktx2", "shine": 3})");

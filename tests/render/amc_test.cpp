@@ -19,8 +19,8 @@ namespace {
 
 using test::Shot;
 
-std::shared_ptr<const appearance::Appearance> amc(amc::AmcTable table) {
-  return std::make_shared<const amc::AmcAppearance>(std::move(table));
+std::shared_ptr<appearance::Appearance> amc(amc::AmcTable table) {
+  return std::make_shared<amc::AmcAppearance>(std::move(table));
 }
 
 test::Difference compare(const render::Picture& a, const render::Picture& b, double tolerance) {
@@ -100,7 +100,7 @@ TEST(AmcOnGpu, ATableOfHalfATurnLooksLikeTheSameDataOverAFullTurn) {
 TEST(AmcOnGpu, AnIsotropicTableIsThePlainMatCapEverywhere) {
   const amc::AmcTable table =
       test::table_of(64, 16, 1, [](const Vec3& normal, double) { return test::isotropic_colour(normal); });
-  const auto matcap = std::make_shared<const matcap::MatCap>(amc::isotropic_average(table));
+  const auto matcap = std::make_shared<matcap::MatCap>(amc::isotropic_average(table));
   // Both are filled from the rim by the same rule.
   amc::AmcTable filled = table;
   for (int f = 0; f < table.slices; ++f) amc::set_slice_image(filled, f, matcap->picture());

@@ -18,15 +18,15 @@ namespace {
 
 constexpr int kSide = 160;
 
-Image picture_of(const Mesh& mesh, std::shared_ptr<const appearance::Appearance> appearance,
+Image picture_of(const Mesh& mesh, std::shared_ptr<appearance::Appearance> appearance,
                  const scene::RenderSwitches& switches, const Vec3& degrees) {
   test::Shot picture{.width = kSide, .height = kSide, .samples = 3, .surfaces = false};
   picture.rotation = rotation_xyz(degrees * (kPi / 180));
   return test::render(test::scene_of(mesh, std::move(appearance), switches), picture).colour;
 }
 
-std::shared_ptr<const appearance::Appearance> satin() {
-  return std::make_shared<const amc::AmcAppearance>(test::analytic_table(64, 64, 2));
+std::shared_ptr<appearance::Appearance> satin() {
+  return std::make_shared<amc::AmcAppearance>(test::analytic_table(64, 64, 2));
 }
 
 TEST(Golden, TorusWithTangentsAroundTheRing) {
@@ -46,9 +46,8 @@ TEST(Golden, JacketWithAMatCap) {
   Mesh mesh = io::read_model(test::examples() / "garment" / "jacket.obj").mesh;
   if (mesh.normals.empty()) geometry::compute_normals(mesh);
   mesh.material_ids.clear();
-  test::expect_golden(
-      picture_of(mesh, std::make_shared<const matcap::MatCap>(test::test_matcap()), {}, {0, 25, 0}),
-      "jacket_matcap");
+  test::expect_golden(picture_of(mesh, std::make_shared<matcap::MatCap>(test::test_matcap()), {}, {0, 25, 0}),
+                      "jacket_matcap");
 }
 
 }  // namespace

@@ -17,7 +17,7 @@ scene::SurfaceMap constant_map(const Vec3f& value) {
 }
 
 scene::Scene plane_scene() {
-  return test::scene_of(test::plane(), std::make_shared<const matcap::MatCap>(test::test_matcap()));
+  return test::scene_of(test::plane(), std::make_shared<matcap::MatCap>(test::test_matcap()));
 }
 
 appearance::Surface centre(const scene::Scene& scene, const Mat3& rotation = Mat3::Identity()) {

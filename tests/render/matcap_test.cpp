@@ -10,8 +10,8 @@ namespace {
 
 using test::Shot;
 
-std::shared_ptr<const matcap::MatCap> matcap() {
-  return std::make_shared<const matcap::MatCap>(test::test_matcap());
+std::shared_ptr<matcap::MatCap> matcap() {
+  return std::make_shared<matcap::MatCap>(test::test_matcap());
 }
 
 // Half floats and the driver's 8-bit filter weights bound what the GPU can do.
@@ -33,7 +33,7 @@ TEST(MatCapOnGpu, OfAnOrthographicSphereIsThePictureItself) {
   const int size = 96;
   const Image image = test::test_matcap(size);
   const render::Picture frame =
-      test::render(test::scene_of(test::sphere(512, 256), std::make_shared<const matcap::MatCap>(image)),
+      test::render(test::scene_of(test::sphere(512, 256), std::make_shared<matcap::MatCap>(image)),
                    test::in_view_space(size));
   for (int y = 0; y < size; ++y) {
     for (int x = 0; x < size; ++x) {

@@ -2,8 +2,8 @@
 #include "sateen/core/direction.h"
 #include "sateen/core/error.h"
 #include "sateen/matcap/matcap.h"
-#include "sateen/scene/aov.h"
 #include "sateen/scene/constant.h"
+#include "sateen/scene/surface_images.h"
 #include "support/rendering.h"
 #include "support/shapes.h"
 
@@ -18,7 +18,7 @@ scene::View one_view(const scene::Scene& scene, const scene::Camera& camera, dou
 }
 
 scene::Scene white(Mesh mesh) {
-  return test::scene_of(std::move(mesh), std::make_shared<const scene::Constant>(Vec3(1, 1, 1)));
+  return test::scene_of(std::move(mesh), std::make_shared<scene::Constant>(Vec3(1, 1, 1)));
 }
 
 TEST(Picture, IsTransparentWhereNothingIsAndAssociatedAtEdges) {
@@ -77,7 +77,7 @@ TEST(Picture, AColouredBackgroundIsOpaqueAndBlendsAtEdges) {
 TEST(Picture, TilesDoNotShow) {
   test::context();
   const scene::Scene scene =
-      test::scene_of(test::torus(), std::make_shared<const matcap::MatCap>(test::test_matcap()));
+      test::scene_of(test::torus(), std::make_shared<matcap::MatCap>(test::test_matcap()));
   const Renderer renderer(scene);
   const scene::View view = one_view(scene, {}, 101.0 / 67);
   PictureSettings settings{.width = 101, .height = 67, .samples = 2, .background = {}, .surfaces = true};
@@ -135,7 +135,7 @@ TEST(Picture, NearerSurfacesHideOthers) {
   }
   mesh.material_names = {"behind", "in front"};
   scene::Scene scene = white(mesh);
-  scene.materials.push_back({.appearance = std::make_shared<const scene::Constant>(Vec3(0, 0, 1))});
+  scene.materials.push_back({.appearance = std::make_shared<scene::Constant>(Vec3(0, 0, 1))});
   test::Shot picture{.width = 4, .height = 4};
   picture.camera.kind = scene::Camera::Kind::view_space;
   render::Picture frame = test::render(scene, picture);

@@ -27,9 +27,9 @@ std::string message(const std::filesystem::path& path) {
 TEST(Registry, APictureIsAMatCapAndJsonNamesItsModel) {
   const test::TemporaryFolder folder;
   io::write_image(folder / "clay.exr", Image(8, 8, 3, 0.25f));
-  EXPECT_NEAR(load_appearance(folder / "clay.exr")->evaluate({}).y(), 0.25, 1e-4);
+  EXPECT_NEAR(load_appearance(folder / "clay.exr")->radiance({}, {}).y(), 0.25, 1e-4);
   io::write_text(folder / "red.json", R"({"model": "constant", "colour": [1, 0.5, 0]})");
-  EXPECT_TRUE(load_appearance(folder / "red.json")->evaluate({}).isApprox(Vec3(1, 0.5, 0)));
+  EXPECT_TRUE(load_appearance(folder / "red.json")->radiance({}, {}).isApprox(Vec3(1, 0.5, 0)));
 }
 
 TEST(Registry, WrongMaterialsAreNamedWithWhatWouldBeRight) {
@@ -38,7 +38,7 @@ TEST(Registry, WrongMaterialsAreNamedWithWhatWouldBeRight) {
   io::write_text(folder / "notes.txt", "hello");
   EXPECT_THAT(message(folder / "notes.txt"), AllOf(HasSubstr("notes.txt"), HasSubstr(".ktx2")));
   io::write_text(folder / "broken.json", "{");
-  EXPECT_THAT(message(folder / "broken.json"), AllOf(HasSubstr("broken.json"), HasSubstr("model")));
+  EXPECT_THAT(message(folder / "broken.json"), AllOf(HasSubstr("broken.json"), HasSubstr("JSON")));
   io::write_text(folder / "odd.json", R"({"model": "plaid"})");
   EXPECT_THAT(message(folder / "odd.json"), AllOf(HasSubstr("plaid"), HasSubstr("constant")));
   io::write_text(folder / "colour.json", R"({"model": "constant", "colour": ["red", 0, 0]})");

@@ -21,13 +21,15 @@ inline const gpu::Context& context() {
   return shared;
 }
 
-inline scene::Scene scene_of(Mesh mesh, std::shared_ptr<const appearance::Appearance> appearance,
-                             const scene::RenderSwitches& switches = {}) {
+inline scene::Scene scene_of(Mesh mesh, std::shared_ptr<appearance::Appearance> appearance,
+                             const scene::RenderSwitches& switches = {},
+                             const light::Lighting& lighting = {}) {
   scene::Scene scene;
   scene.mesh = std::move(mesh);
   scene.materials.resize(1);
   scene.materials[0].appearance = std::move(appearance);
   scene.switches = switches;
+  scene.lighting = lighting;
   return scene;
 }
 
@@ -84,17 +86,17 @@ struct Difference {
   double failing_share() const { return pixels == 0 ? 0 : static_cast<double>(failing) / pixels; }
 };
 
-/// The frame's colour against evaluate() of the surface the pipeline saw, at every covered pixel. The frame
+/// The frame's colour against radiance() of the surface the pipeline saw, at every covered pixel. The frame
 /// is drawn with one sample and with its surfaces.
-inline Difference against_evaluator(const render::Picture& frame,
-                                    const std::vector<scene::Material>& materials, double tolerance) {
+inline Difference against_evaluator(const render::Picture& frame, const scene::Scene& scene,
+                                    double tolerance) {
   Difference difference;
   for (int y = 0; y < frame.colour.height; ++y) {
     for (int x = 0; x < frame.colour.width; ++x) {
       const auto surface = scene::surface_at(*frame.surfaces, x, y);
       if (!surface) continue;
-      const Vec3 expected =
-          materials[static_cast<std::size_t>(surface->material)].appearance->evaluate(*surface);
+      const Vec3 expected = scene.materials[static_cast<std::size_t>(surface->material)].appearance->radiance(
+          *surface, scene.lighting);
       difference.add(x, y, (expected - frame.colour.rgb(x, y).cast<double>()).cwiseAbs().maxCoeff(),
                      tolerance);
     }
@@ -104,13 +106,12 @@ inline Difference against_evaluator(const render::Picture& frame,
 
 /// For a new appearance: renders `mesh` under perspective with it and expects every pixel within `tolerance`
 /// of the C++ evaluator.
-inline void expect_matches_evaluator(const Mesh& mesh,
-                                     std::shared_ptr<const appearance::Appearance> appearance,
+inline void expect_matches_evaluator(const Mesh& mesh, std::shared_ptr<appearance::Appearance> appearance,
                                      double tolerance, const scene::RenderSwitches& switches = {},
-                                     const Shot& picture = {}) {
-  const scene::Scene scene = scene_of(mesh, std::move(appearance), switches);
+                                     const Shot& picture = {}, const light::Lighting& lighting = {}) {
+  const scene::Scene scene = scene_of(mesh, std::move(appearance), switches, lighting);
   const render::Picture frame = render(scene, picture);
-  const Difference difference = against_evaluator(frame, scene.materials, tolerance);
+  const Difference difference = against_evaluator(frame, scene, tolerance);
   EXPECT_GT(difference.pixels, frame.colour.width * frame.colour.height / 10);
   EXPECT_EQ(difference.failing, 0) << "largest difference " << difference.largest << " at pixel ("
                                    << difference.x << ", " << difference.y << ")";

@@ -44,7 +44,6 @@ Image run(const Image& input, const std::string& main_text) {
   glGenVertexArrays(1, &vertex_array);
   glBindVertexArray(vertex_array);
   program.use();
-  program.set("size", Vec2f(kSize, kSize));
   const gpu::Texture texture(texture_of(input));
   texture.bind(0);
   program.set("map", 0);

@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 
 #include "brdf/random_directions.h"
+#include "sateen/brdf/layered/layered.h"
 #include "sateen/core/direction.h"
 #include "sateen/core/error.h"
 #include "sateen/io/image.h"
@@ -23,19 +24,19 @@ using testing::HasSubstr;
 
 constexpr double kTolerance = 5e-3;
 
-brdf::Lighting lamps() {
-  brdf::Lighting lighting;
+light::Lighting lamps() {
+  light::Lighting lighting;
   light::PunctualLight key;
   key.direction = Vec3(-0.3, 0.4, 0.8).normalized();
   light::PunctualLight point;
   point.kind = light::PunctualLight::Kind::point;
   point.position = {1, 0.5, -2};
   point.colour = {2, 3, 4};
-  lighting.lights = {key, point};
+  lighting.lamps = {key, point};
   return lighting;
 }
 
-brdf::Lighting surroundings() {
+light::Lighting surroundings() {
   Image sky(64, 32, 3);
   for (int y = 0; y < sky.height; ++y) {
     for (int x = 0; x < sky.width; ++x) {
@@ -44,26 +45,29 @@ brdf::Lighting surroundings() {
           Vec3f(0.6f + 0.4f * std::sin(0.2f * static_cast<float>(x)), 0.5f, 1 - static_cast<float>(y) / 32));
     }
   }
-  brdf::Lighting lighting = lamps();
-  lighting.set_environment(sky);
+  light::Lighting lighting = lamps();
+  lighting.surroundings = light::make_surroundings(sky);
   return lighting;
 }
 
-std::shared_ptr<const MappedAppearance> mapped(MappedAppearance::Maps maps, brdf::Lighting lighting) {
-  brdf::LayeredMaterial base;
-  base.base_colour = {0.2, 0.15, 0.1};
-  return std::make_shared<const MappedAppearance>(
-      std::move(maps), std::make_unique<brdf::LayeredAppearance>(std::move(base), std::move(lighting)));
+struct Maps {
+  LobeMips mips;
+  MappedMaterial material;
+};
+
+std::shared_ptr<MappedAppearance> mapped(Maps maps, const Vec3& base = {0.2, 0.15, 0.1}) {
+  maps.material.base.color = base;
+  return std::make_shared<MappedAppearance>(std::move(maps.mips), std::move(maps.material));
 }
 
 /// Unrelated lobes and normals side by side; with `any` the channels are no lobes at all, as damaged maps
 /// hold them.
-MappedAppearance::Maps adversarial(AnisotropyEncoding encoding, bool any) {
+Maps adversarial(AnisotropyEncoding encoding, bool any) {
   std::mt19937 random(3);
   std::uniform_real_distribution<double> value(0, 1);
   const auto between = [&](double low, double high) { return low + (high - low) * value(random); };
-  MappedAppearance::Maps maps;
-  maps.f0 = {0.5, 0.4, 0.3};
+  Maps maps;
+  maps.material.f0 = {0.5, 0.4, 0.3};
   maps.mips.encoding = encoding;
   Image normals(5, 4, 2);
   Image lobes(5, 4, 3);
@@ -84,8 +88,8 @@ MappedAppearance::Maps adversarial(AnisotropyEncoding encoding, bool any) {
 
 TEST(MappedOnGpu, EqualsTheEvaluatorBetweenUnrelatedTexels) {
   const auto maps = [] { return adversarial(AnisotropyEncoding::root, false); };
-  test::expect_matches_evaluator(test::plane(), mapped(maps(), surroundings()), kTolerance);
-  test::expect_matches_evaluator(test::torus(), mapped(maps(), lamps()), kTolerance);
+  test::expect_matches_evaluator(test::plane(), mapped(maps()), kTolerance, {}, {}, surroundings());
+  test::expect_matches_evaluator(test::torus(), mapped(maps()), kTolerance, {}, {}, lamps());
 }
 
 TEST(MappedOnGpu, BadMatricesAreGuardedAsInTheEvaluator) {
@@ -94,9 +98,9 @@ TEST(MappedOnGpu, BadMatricesAreGuardedAsInTheEvaluator) {
   for (const auto encoding : {AnisotropyEncoding::root, AnisotropyEncoding::correlation}) {
     for (const bool any : {false, true}) {
       const scene::Scene scene =
-          test::scene_of(test::plane(), mapped(adversarial(encoding, any), surroundings()));
+          test::scene_of(test::plane(), mapped(adversarial(encoding, any)), {}, surroundings());
       const render::Picture frame = test::render(scene, {});
-      const auto difference = test::against_evaluator(frame, scene.materials, 0.05);
+      const auto difference = test::against_evaluator(frame, scene, 0.05);
       EXPECT_GT(difference.pixels, 1000);
       EXPECT_LT(difference.failing_share(), 0.01) << name_of(encoding) << any;
       for (const float v : frame.colour.data) ASSERT_TRUE(std::isfinite(v));
@@ -131,36 +135,36 @@ TEST(Mapped, ChannelsInRangeAreNeverNegativeButMayBeSingularOrTooLarge) {
 }
 
 TEST(Mapped, FlatMapsUnderLampsAreTheLayeredMaterial) {
-  MappedAppearance::Maps maps;
+  Maps maps;
   maps.mips.normals = {Image(2, 2, 2, 0.5f)};
   const Vec3 c = encode_anisotropy(brdf::roughness_matrix({0.5, 0.2, 0.7}), AnisotropyEncoding::root);
   Image lobes(2, 2, 3);
   for (int i = 0; i < 12; ++i) lobes.data[static_cast<std::size_t>(i)] = static_cast<float>(c[i % 3]);
   maps.mips.anisotropy = {lobes};
-  maps.f0 = {0.5, 0.4, 0.3};
+  maps.material.f0 = {0.5, 0.4, 0.3};
   brdf::LayeredMaterial material;
-  material.base_colour = {0.2, 0.15, 0.1};
-  material.specular = brdf::GgxParameters{{0.5, 0.2, 0.7}, maps.f0, false};
-  const auto a = mapped(maps, lamps());
-  const brdf::LayeredAppearance b(material, lamps());
+  material.base.color = {0.2, 0.15, 0.1};
+  material.specular = brdf::GgxParameters{{0.5, 0.2, 0.7}, maps.material.f0, false};
+  const auto a = mapped(maps);
+  const brdf::LayeredAppearance b(material);
   for (int i = 0; i < 40; ++i) {
     appearance::Surface surface;
     surface.view = Vec3(0.9 * std::cos(i), 0.9 * std::sin(2.0 * i), 0.6).normalized();
     surface.position = -2 * surface.view;
-    const Vec3 expected = b.evaluate(surface);
-    EXPECT_LT((a->evaluate(surface) - expected).norm(), 2e-3 * expected.norm());
+    const Vec3 expected = b.radiance(surface, lamps(), {});
+    EXPECT_LT((a->radiance(surface, lamps(), {}) - expected).norm(), 2e-3 * expected.norm());
   }
 }
 
 /// A map that is the same lobe everywhere on a flat surface.
-MappedAppearance::Maps one_lobe(const brdf::AnisotropicRoughness& lobe, const Vec3& f0) {
-  MappedAppearance::Maps maps;
+Maps one_lobe(const brdf::AnisotropicRoughness& lobe, const Vec3& f0) {
+  Maps maps;
   maps.mips.normals = {Image(1, 1, 2, 0.5f)};
   const Vec3 c = encode_anisotropy(brdf::roughness_matrix(lobe), AnisotropyEncoding::root);
   Image stored(1, 1, 3);
   stored.set_rgb(0, 0, c.cast<float>());
   maps.mips.anisotropy = {stored};
-  maps.f0 = f0;
+  maps.material.f0 = f0;
   return maps;
 }
 
@@ -169,19 +173,18 @@ TEST(Mapped, UnderASkyIsCloseToTheIntegralOfTheBrdf) {
   // the albedo by table.
   std::mt19937 random(5);
   const Image sky = test::sky();
-  brdf::Lighting lighting;
-  lighting.set_environment(sky);
+  light::Lighting lighting;
+  lighting.surroundings = light::make_surroundings(sky);
   const Vec3 f0(0.9, 0.6, 0.3);
   for (const brdf::AnisotropicRoughness& lobe :
        {brdf::AnisotropicRoughness{0.6, 0.15, 0.4}, brdf::AnisotropicRoughness{0.3, 0.3, 0},
         brdf::AnisotropicRoughness{0.4, 0.06, 1.2}}) {
     brdf::LayeredMaterial black;
-    black.base_colour = Vec3::Zero();
-    const MappedAppearance maps(one_lobe(lobe, f0),
-                                std::make_unique<brdf::LayeredAppearance>(black, lighting));
+    black.base.color = Vec3::Zero();
+    const auto maps = mapped(one_lobe(lobe, f0), Vec3::Zero());
     black.specular = brdf::GgxParameters{lobe, f0, false};
     black.lobe_samples = 8;
-    const brdf::LayeredAppearance layered(black, lighting);
+    const brdf::LayeredAppearance layered(black);
     double error = 0;
     double layered_error = 0;
     double between = 0;
@@ -191,8 +194,8 @@ TEST(Mapped, UnderASkyIsCloseToTheIntegralOfTheBrdf) {
       surface.view = test::random_up(random, 0.15);
       const Vec3 exact =
           test::summed([&](const Vec3& u) { return brdf::ggx_brdf(lobe, f0, u, surface.view); }, sky);
-      const Vec3 a = maps.evaluate(surface);
-      const Vec3 b = layered.evaluate(surface);
+      const Vec3 a = maps->radiance(surface, lighting, {});
+      const Vec3 b = layered.radiance(surface, lighting, {});
       error += (a - exact).norm() / exact.norm() / kViews;
       layered_error += (b - exact).norm() / exact.norm() / kViews;
       between = std::max(between, (a - b).norm() / b.norm());
@@ -205,15 +208,13 @@ TEST(Mapped, UnderASkyIsCloseToTheIntegralOfTheBrdf) {
 
 TEST(Mapped, BumpsSeenFromBehindAreDents) {
   // A Lambert sheet under one lamp: the cosine to the normal that the map gives the front, turned around.
-  MappedAppearance::Maps maps = one_lobe({0.5, 0.5, 0}, Vec3::Zero());
+  Maps maps = one_lobe({0.5, 0.5, 0}, Vec3::Zero());
   maps.mips.normals[0].data = {0.5f + 0.5f * 0.3f, 0.5f - 0.5f * 0.2f};
-  brdf::Lighting lighting;
+  light::Lighting lighting;
   light::PunctualLight lamp;
   lamp.direction = Vec3(0.5, 0.3, 0.8).normalized();
-  lighting.lights = {lamp};
-  brdf::LayeredMaterial white;
-  white.base_colour = Vec3::Ones();
-  const MappedAppearance sheet(std::move(maps), std::make_unique<brdf::LayeredAppearance>(white, lighting));
+  lighting.lamps = {lamp};
+  const auto sheet = mapped(std::move(maps), Vec3::Ones());
   // The sheet's front looks away: its tangent and bitangent in view space, and its normal towards -z.
   const Mat3 front = (Mat3() << -Vec3::UnitX(), Vec3::UnitY(), -Vec3::UnitZ()).finished();
   const Vec3 n(0.3, -0.2, std::sqrt(1 - 0.13));
@@ -224,19 +225,18 @@ TEST(Mapped, BumpsSeenFromBehindAreDents) {
   surface.bitangent_sign = -1;  // keeps the bitangent where it was
   ASSERT_LT((surface.bitangent_sign * surface.normal.cross(surface.tangent) - front.col(1)).norm(), 1e-9);
   const double expected = (-(front * n)).dot(lamp.direction) / kPi;
-  EXPECT_NEAR(sheet.evaluate(surface).x(), expected, 1e-3);
+  EXPECT_NEAR(sheet->radiance(surface, lighting, {}).x(), expected, 1e-3);
   // On the GPU, both sides of a sheet that is turned away and to the viewer.
   for (const double turn : {0.3, kPi - 0.3}) {
     test::Shot picture;
     picture.rotation = rotation_xyz({0.2, turn, 0});
-    test::expect_matches_evaluator(test::plane(),
-                                   mapped(adversarial(AnisotropyEncoding::root, false), lamps()), kTolerance,
-                                   {}, picture);
+    test::expect_matches_evaluator(test::plane(), mapped(adversarial(AnisotropyEncoding::root, false)),
+                                   kTolerance, {}, picture, lamps());
   }
 }
 
 TEST(Mapped, AlbedoTableIsCloseToTheIntegral) {
-  const GgxAlbedoTable table;
+  const brdf::GgxAlbedoTable table;
   double worst = 0;
   for (const auto& [t, b] : {std::pair{0.05, 0.05}, std::pair{0.3, 0.3}, std::pair{0.5, 0.1},
                              std::pair{0.9, 0.3}, std::pair{0.87, 0.09}}) {
@@ -256,17 +256,17 @@ TEST(Mapped, AlbedoTableIsCloseToTheIntegral) {
 
 TEST(Mapped, HighlightsRunAlongTheLargerAlpha) {
   // Axis at 30 degrees from U towards V: the highlight under the eye's own lamp is long that way on a square.
-  MappedAppearance::Maps maps;
+  Maps maps;
   maps.mips.normals = {Image(1, 1, 2, 0.5f)};
   const Vec3 c = encode_anisotropy(brdf::roughness_matrix({0.5, 0.1, radians(30)}), AnisotropyEncoding::root);
   Image lobe(1, 1, 3);
   for (int k = 0; k < 3; ++k) lobe.at(0, 0, k) = static_cast<float>(c[k]);
   maps.mips.anisotropy = {lobe};
-  brdf::Lighting lighting;
+  light::Lighting lighting;
   light::PunctualLight lamp;
   lamp.direction = Vec3::UnitZ();
-  lighting.lights = {lamp};
-  const render::Picture frame = test::render(test::scene_of(test::plane(), mapped(maps, lighting)), {});
+  lighting.lamps = {lamp};
+  const render::Picture frame = test::render(test::scene_of(test::plane(), mapped(maps), {}, lighting), {});
   Mat2 second = Mat2::Zero();
   const double background = frame.colour.rgb(8, 8).y();
   for (int y = 0; y < 128; ++y) {
@@ -300,15 +300,15 @@ class Weave : public LobeSource {
 };
 
 /// Relative error of a far view of the weave against the mean of 16 x 16 close pixels each.
-double far_view_error(FilterMethod method, const brdf::Lighting& lighting) {
+double far_view_error(FilterMethod method, const light::Lighting& lighting) {
   ChainOptions options;
   options.filter.method = method;
   Weave source;
-  MappedAppearance::Maps maps;
+  Maps maps;
   maps.mips = make_lobe_mips(source, options, AnisotropyEncoding::root);
-  maps.repeat = {16, 16};
-  maps.f0 = {0.8, 0.8, 0.8};
-  const scene::Scene scene = test::scene_of(test::plane(), mapped(maps, lighting));
+  maps.material.repeat = {16, 16};
+  maps.material.f0 = {0.8, 0.8, 0.8};
+  const scene::Scene scene = test::scene_of(test::plane(), mapped(maps), {}, lighting);
   const auto picture = [&](int size) {
     test::Shot p;
     p.width = p.height = size;
@@ -379,7 +379,7 @@ TEST(Mapped, MaterialFilesAreReadAndWrongOnesNamed) {
     std::ofstream(folder / "m.json") << text;
     try {
       const auto appearance = scene::load_appearance(folder / "m.json");
-      return appearance->evaluate({}).allFinite() ? "" : "not finite";
+      return appearance->radiance({}, lamps(), {}).allFinite() ? "" : "not finite";
     } catch (const Error& error) {
       return error.what();
     }

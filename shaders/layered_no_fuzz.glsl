@@ -1,4 +1,0 @@
-// SPDX-License-Identifier: MIT
-// A layered material without fuzz. In front of layered.glsl.
-
-#define LAYERED_FUZZ false
