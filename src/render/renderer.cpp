@@ -83,14 +83,15 @@ struct Renderer::Data {
       surface_pipelines;  ///< the same, writing the surface too; made when first needed
   std::vector<scene::Material> materials;
   scene::RenderSwitches switches;
-  gpu::Program resolve;
+  gpu::Program display;
   gpu::Handle no_attributes;
 
   explicit Data(const scene::Scene& scene)
       : geometry(scene),
         materials(scene.materials),
         switches(scene.switches),
-        resolve(std::array{gpu::shader_file("picture.vert")}, std::array{gpu::shader_file("resolve.frag")}) {
+        display(std::array{gpu::shader_file("picture.vert")},
+                gpu::with_needed(std::array{std::string("display.frag")})) {
     pipelines = compile(false);
     GLuint name = 0;
     glGenVertexArrays(1, &name);
@@ -116,13 +117,17 @@ struct Renderer::Data {
     }
   }
 
-  /// The mean over samples x samples texels of `from` in each pixel of `to`.
-  void average(const gpu::Framebuffer& from, const gpu::Framebuffer& to, int samples) const {
+  /// shaders/display.frag: the mean over samples x samples texels of `from` in each pixel of `to`.
+  void show(const gpu::Framebuffer& from, const gpu::Framebuffer& to, const PictureSettings& settings) const {
     to.bind();
     glDisable(GL_DEPTH_TEST);
-    resolve.use();
-    resolve.set("supersampled", 0);
-    resolve.set("samples", samples);
+    display.use();
+    display.set("supersampled", 0);
+    display.set("samples", settings.samples);
+    const Vec3f colour = settings.background.value_or(Vec3f::Zero());
+    display.set("background", Vec4f(colour.x(), colour.y(), colour.z(), settings.background ? 1.0f : 0.0f));
+    display.set("display_view", settings.display ? static_cast<int>(settings.display->view) : -1);
+    display.set("display_gain", static_cast<float>(settings.display ? display_gain(*settings.display) : 1));
     from.bind_colour(0);
     glBindVertexArray(no_attributes.name());
     glDrawArrays(GL_TRIANGLES, 0, 3);
@@ -133,13 +138,12 @@ struct Renderer::Data {
     const int samples = settings.samples;
     const gpu::Framebuffer large(tile.width * samples, tile.height * samples);
     large.bind();
-    const Vec3f colour = settings.background.value_or(Vec3f::Zero());
-    glClearColor(colour.x(), colour.y(), colour.z(), settings.background ? 1.0f : 0.0f);
+    glClearColor(0, 0, 0, 0);
     glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
     draw(pipelines, view, clip_from_view);
-    if (samples == 1) return large.read();
+    if (samples == 1 && !settings.background && !settings.display) return large.read();
     const gpu::Framebuffer small(tile.width, tile.height);
-    average(large, small, samples);
+    show(large, small, settings);
     return small.read();
   }
 
