@@ -8,6 +8,7 @@
 #include "sateen/brdf/parameters.h"
 #include "sateen/core/error.h"
 #include "sateen/io/image.h"
+#include "sateen/light/default_lighting.h"
 #include "sateen/light/environment.h"
 
 namespace sateen::brdf {
@@ -34,14 +35,12 @@ light::PunctualLight read_light(appearance::JsonObject& json) {
   return light;
 }
 
-/// The lamp a material without lights of its own is shown under.
+/// The light a material without lights of its own is shown under.
 Lighting studio() {
+  light::DefaultLighting light = light::default_lighting();
   Lighting lighting;
-  light::PunctualLight key;
-  key.direction = Vec3(-0.4, 0.6, 0.7).normalized();
-  key.colour = Vec3::Constant(2.5);
-  lighting.lights.push_back(key);
-  lighting.harmonics.c[0] = Vec3::Constant(0.25);
+  lighting.lights = std::move(light.lamps);
+  lighting.set_environment(light.sky);
   return lighting;
 }
 
