@@ -5,6 +5,8 @@
 
 #include "command.h"
 #include "commands.h"
+#include "display_options.h"
+#include "sateen/core/exposure.h"
 #include "sateen/io/image.h"
 #include "sateen/light/environment.h"
 #include "sateen/scene/registry.h"
@@ -24,6 +26,7 @@ struct ShadeArguments {
   fs::path mesh_normals;
   fs::path material;
   fs::path environment;
+  DisplayArguments display;
   fs::path output;
 };
 
@@ -40,7 +43,13 @@ void run(const ShadeArguments& arguments) {
                                   .uvs = read(arguments.uvs),
                                   .curvature = read(arguments.curvature),
                                   .mesh_normals = read(arguments.mesh_normals)};
-  io::write_image(arguments.output, scene::shade(*appearance, inputs, progress_bar("Shading")));
+  Image picture = scene::shade(*appearance, inputs, progress_bar("Shading"));
+  const auto display = display_settings(arguments.display, arguments.output, lit(*appearance),
+                                        [&] { return automatic_exposure(picture); });
+  if (display) picture = displayed(std::move(picture), *display);
+  const auto background = background_for(arguments.output, std::nullopt);
+  if (background) picture = over_background(std::move(picture), *background);
+  io::write_image(arguments.output, picture);
 }
 
 }  // namespace
@@ -71,7 +80,9 @@ void add_shade(CLI::App& parent) {
       ->required();
   command->add_option("--env", arguments->environment,
                       "Latitude-longitude picture that lights a \"layered\" material");
-  command->add_option("-o,--output", arguments->output, "The picture, RGBA")->required();
+  add_display_options(*command, arguments->display);
+  command->add_option("-o,--output", arguments->output, "The picture, RGBA; over white in .jpg and .hdr")
+      ->required();
   command->callback([arguments] { run(*arguments); });
 }
 
