@@ -24,20 +24,20 @@ double soft_box(const Vec3& direction, const Vec3& axis, double width) {
 /// A floor that sends a little back, walls, a bright ceiling; a soft box at each side, of which glossy
 /// materials have something to reflect and whose grazing light shows a pile.
 Vec3 sky_radiance(const Vec3& direction) {
-  const Vec3 floor(0.20, 0.19, 0.18);
-  const Vec3 ceiling(0.44, 0.46, 0.50);
+  const Vec3 floor(0.155, 0.15, 0.145);
+  const Vec3 ceiling(0.37, 0.39, 0.43);
   const double height = (1 + direction.y()) / 2;
   const double up = height * height * (3 - 2 * height);
   return floor + up * (ceiling - floor) +
-         Vec3::Constant(0.7 * soft_box(direction, {-0.8, 0.5, 0.4}, 0.35) +
-                        0.9 * soft_box(direction, {0.8, 0.4, -0.5}, 0.35));
+         Vec3::Constant(1.4 * soft_box(direction, {-0.85, 0.35, -0.4}, 0.35) +
+                        0.9 * soft_box(direction, {0.8, 0.4, -0.45}, 0.35));
 }
 
 }  // namespace
 
 DefaultLighting default_lighting() {
   DefaultLighting lighting;
-  lighting.lamps = {lamp({-0.5, 0.65, 0.8}, {2.6, 2.52, 2.4}), lamp({0.65, 0.5, -0.6}, {1.9, 1.95, 2.05})};
+  lighting.lamps = {lamp({-0.52, 0.62, 0.7}, {3.5, 3.4, 3.24}), lamp({0.65, 0.5, -0.6}, {2.5, 2.56, 2.7})};
   lighting.sky = Image(128, 64, 3);
   for (int y = 0; y < lighting.sky.height; ++y) {
     for (int x = 0; x < lighting.sky.width; ++x) {

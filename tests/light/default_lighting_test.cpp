@@ -42,7 +42,7 @@ TEST(DefaultLighting, NoVisibleSurfaceIsBlackOrBurnt) {
       const Vec3 normal(std::sin(from_view) * std::cos(around), std::sin(from_view) * std::sin(around),
                         std::cos(from_view));
       const double radiance = white_radiance(lighting, normal);
-      EXPECT_GT(radiance, 0.2) << normal.transpose();
+      EXPECT_GT(radiance, 1.0 / 6) << normal.transpose();
       EXPECT_LT(radiance, 2) << normal.transpose();
     }
   }
