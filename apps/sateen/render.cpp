@@ -8,12 +8,14 @@
 
 #include "command.h"
 #include "commands.h"
+#include "display_options.h"
 #include "parse.h"
 #include "sateen/core/direction.h"
 #include "sateen/core/error.h"
 #include "sateen/gpu/context.h"
 #include "sateen/io/image.h"
 #include "sateen/io/video.h"
+#include "sateen/render/metering.h"
 #include "sateen/render/renderer.h"
 #include "sateen/scene/surface_images.h"
 #include "scene_options.h"
@@ -25,6 +27,7 @@ namespace fs = std::filesystem;
 
 struct RenderArguments {
   SceneArguments scene;
+  DisplayArguments display;
   fs::path output;
   std::string size = "1024x1024";
   int samples = 3;
@@ -50,7 +53,8 @@ render::PictureSettings picture_settings(const RenderArguments& arguments) {
   render::PictureSettings settings;
   std::tie(settings.width, settings.height) = parse_size("--size", arguments.size);
   settings.samples = arguments.samples;
-  settings.background = parse_background("--background", arguments.background);
+  settings.background =
+      background_for(arguments.output, parse_background("--background", arguments.background));
   settings.surfaces = !arguments.aovs.empty();
   if (arguments.camera == "view-space" && settings.width != settings.height) {
     throw CLI::ValidationError("--size",
@@ -77,6 +81,12 @@ fs::path numbered(const fs::path& output, int index) {
       fmt::format("{}_{:04}{}", output.stem().string(), index, output.extension().string()));
 }
 
+/// The name of the first picture, or of the film.
+fs::path first_picture(const RenderArguments& arguments) {
+  const bool many = arguments.turntable > 0 && !io::is_video_path(arguments.output);
+  return many ? numbered(arguments.output, 0) : arguments.output;
+}
+
 void make_folder(const fs::path& folder) {
   std::error_code code;
   fs::create_directories(folder, code);
@@ -91,12 +101,31 @@ void write_aovs(const render::Picture& frame, const fs::path& picture,
   }
 }
 
-/// The same scene in the material to compare with, if there is one.
-std::optional<render::Renderer> other_renderer(const RenderArguments& arguments) {
+/// A scene ready to be drawn, and how.
+struct Drawing {
+  render::Renderer renderer;
+  bool lit;
+  render::PictureSettings settings;
+};
+
+Drawing drawing(const RenderArguments& arguments, const scene::Scene& scene, const scene::View& first_view,
+                const render::PictureSettings& settings) {
+  Drawing result{render::Renderer(scene), scene.lit(), settings};
+  result.settings.display = display_settings(arguments.display, first_picture(arguments), result.lit, [&] {
+    return render::metered_exposure(result.renderer, first_view, settings);
+  });
+  return result;
+}
+
+/// The same scene in the material to compare with, if there is one; under one exposure where both are lit.
+std::optional<Drawing> other_drawing(const RenderArguments& arguments, const Drawing& drawn,
+                                     const scene::View& first_view, const render::PictureSettings& settings) {
   if (arguments.compare.empty()) return std::nullopt;
-  SceneArguments scene = arguments.scene;
-  scene.materials = {arguments.compare};
-  return std::make_optional<render::Renderer>(load(scene));
+  SceneArguments other = arguments.scene;
+  other.materials = {arguments.compare};
+  const scene::Scene scene = load(other);
+  if (scene.lit() != drawn.lit) return drawing(arguments, scene, first_view, settings);
+  return Drawing{render::Renderer(scene), drawn.lit, drawn.settings};
 }
 
 /// Two pictures of the same size in one.
@@ -137,15 +166,15 @@ void run(const RenderArguments& arguments) {
   const auto views = scene::frame_object(scene.mesh, camera(arguments), poses,
                                          static_cast<double>(settings.width) / settings.height);
   const gpu::Context context;
-  const render::Renderer renderer(scene);
-  const std::optional<render::Renderer> other = other_renderer(arguments);
+  const Drawing drawn = drawing(arguments, scene, views.front(), settings);
+  const std::optional<Drawing> other = other_drawing(arguments, drawn, views.front(), settings);
   const int count = static_cast<int>(views.size());
   const Progress progress = progress_bar("Drawing");
   const auto draw = [&](int i) {
     const scene::View& view = views[static_cast<std::size_t>(i)];
-    render::Picture frame = renderer.render(
-        view, settings, [&, i](double fraction) { report(progress, (i + fraction) / count); });
-    if (other) frame.colour = beside(frame.colour, other->render(view, settings).colour);
+    render::Picture frame = drawn.renderer.render(
+        view, drawn.settings, [&, i](double fraction) { report(progress, (i + fraction) / count); });
+    if (other) frame.colour = beside(frame.colour, other->renderer.render(view, other->settings).colour);
     return frame;
   };
   if (film) {
@@ -170,6 +199,7 @@ void add_render(CLI::App& parent) {
       parent, "render", "Draw a mesh with a material, without a screen",
       "sateen render examples/garment/jacket.obj --material silk.ktx2 --rotate 0,25,0 -o jacket.png");
   add_scene_options(*command, arguments->scene);
+  add_display_options(*command, arguments->display);
   command
       ->add_option("-o,--output", arguments->output,
                    "The picture: .png, .exr, .jpg, .tif or .hdr; with --turntable a name to be numbered, a "
@@ -180,10 +210,13 @@ void add_render(CLI::App& parent) {
   command->add_option("--compare", arguments->compare,
                       "Another material: the same is drawn in it, to the right in the same picture");
   command
-      ->add_option("--samples", arguments->samples, "N x N samples in each pixel, averaged in linear light")
+      ->add_option("--samples", arguments->samples,
+                   "N x N samples in each pixel, averaged in linear light after exposure and view")
       ->check(CLI::Range(1, 16));
-  command->add_option("--background", arguments->background,
-                      "transparent, R,G,B in linear light, or #rrggbb in sRGB");
+  command->add_option(
+      "--background", arguments->background,
+      "transparent (white in .jpg, .hdr and films), R,G,B in linear light, or #rrggbb in sRGB; "
+      "shown as it is, whatever the exposure and view");
   command
       ->add_option("--camera", arguments->camera,
                    "The object is framed, unless view-space: its x, y in [-1, 1] then fill a square picture")

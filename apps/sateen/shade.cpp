@@ -7,6 +7,8 @@
 
 #include "command.h"
 #include "commands.h"
+#include "display_options.h"
+#include "sateen/core/exposure.h"
 #include "sateen/io/image.h"
 #include "sateen/scene/lighting.h"
 
@@ -20,6 +22,7 @@ struct ShadeArguments {
   fs::path material;
   scene::LightingOptions lighting;
   double environment_turn = 0;  ///< degrees
+  DisplayArguments display;
   fs::path output;
 };
 
@@ -31,9 +34,15 @@ void run(const ShadeArguments& arguments) {
   for (const auto& [field, path] : arguments.pictures) {
     if (!path.empty()) inputs[field] = io::read_data(path);
   }
-  io::write_image(arguments.output,
-                  scene::shade(*materials[0].appearance, inputs, scene::make_lighting(materials, lighting),
-                               progress_bar("Shading")));
+  const appearance::Appearance& appearance = *materials[0].appearance;
+  Image picture =
+      scene::shade(appearance, inputs, scene::make_lighting(materials, lighting), progress_bar("Shading"));
+  const auto display = display_settings(arguments.display, arguments.output, appearance.lit(),
+                                        [&] { return automatic_exposure(picture); });
+  if (display) picture = displayed(std::move(picture), *display);
+  const auto background = background_for(arguments.output, std::nullopt);
+  if (background) picture = over_background(std::move(picture), *background);
+  io::write_image(arguments.output, picture);
 }
 
 }  // namespace
@@ -60,7 +69,9 @@ void add_shade(CLI::App& parent) {
       ->add_option("--env-rotate", arguments->environment_turn,
                    "Turns it about the vertical, degrees, counter-clockwise seen from above")
       ->needs(environment);
-  command->add_option("-o,--output", arguments->output, "The picture, RGBA")->required();
+  add_display_options(*command, arguments->display);
+  command->add_option("-o,--output", arguments->output, "The picture, RGBA; over white in .jpg and .hdr")
+      ->required();
   command->callback([arguments] { run(*arguments); });
 }
 

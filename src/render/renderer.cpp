@@ -62,9 +62,9 @@ struct Renderer::Data {
   Caches caches;
   std::vector<std::optional<SurfacePass>> colour_passes;   ///< by material; made when first needed
   std::vector<std::optional<SurfacePass>> surface_passes;  ///< the same, writing what is known of the surface
-  gpu::Program resolve;
+  gpu::Program display;
   gpu::Handle no_attributes;
-  std::map<std::array<int, 3>, gpu::Framebuffer> framebuffers;  ///< by width, height and targets
+  std::map<std::array<int, 4>, gpu::Framebuffer> framebuffers;  ///< by width, height, targets; or a second one
 
   explicit Data(const scene::Scene& scene)
       : offer(scene::offer_of(scene.mesh)),
@@ -73,7 +73,8 @@ struct Renderer::Data {
         switches(scene.switches),
         lighting(scene.lighting),
         tangent_turn(scene.tangent_turn),
-        resolve(std::array{gpu::shader_file("picture.vert")}, std::array{gpu::shader_file("resolve.frag")}) {
+        display(std::array{gpu::shader_file("picture.vert")},
+                gpu::with_needed(std::array{std::string("display.frag")})) {
     if (materials.size() < offer.materials) {
       throw Error(
           fmt::format("the mesh has {} materials and {} appearances", offer.materials, materials.size()));
@@ -122,20 +123,22 @@ struct Renderer::Data {
   }
 
   /// Kept for the next picture: those of one size, and of the tiles at its edges.
-  const gpu::Framebuffer& framebuffer(int width, int height, int targets) {
-    constexpr std::size_t kKept = 12;
-    const std::array key{width, height, targets};
-    if (!framebuffers.contains(key) && framebuffers.size() >= kKept) framebuffers.clear();
+  const gpu::Framebuffer& framebuffer(int width, int height, int targets, bool second = false) {
+    const std::array key{width, height, targets, second ? 1 : 0};
     return framebuffers.try_emplace(key, width, height, targets).first->second;
   }
 
-  /// The mean over samples x samples texels of `from` in each pixel of `to`.
-  void average(const gpu::Framebuffer& from, const gpu::Framebuffer& to, int samples) const {
+  /// shaders/display.frag: the mean over samples x samples texels of `from` in each pixel of `to`.
+  void show(const gpu::Framebuffer& from, const gpu::Framebuffer& to, const PictureSettings& settings) const {
     to.bind();
     glDisable(GL_DEPTH_TEST);
-    resolve.use();
-    resolve.set("supersampled", 0);
-    resolve.set("samples", samples);
+    display.use();
+    display.set("supersampled", 0);
+    display.set("samples", settings.samples);
+    const Vec3f colour = settings.background.value_or(Vec3f::Zero());
+    display.set("background", Vec4f(colour.x(), colour.y(), colour.z(), settings.background ? 1.0f : 0.0f));
+    display.set("display_view", settings.display ? static_cast<int>(settings.display->view) : -1);
+    display.set("display_gain", static_cast<float>(settings.display ? display_gain(*settings.display) : 1));
     from.bind_colour(0);
     glBindVertexArray(no_attributes.name());
     glDrawArrays(GL_TRIANGLES, 0, 3);
@@ -146,13 +149,13 @@ struct Renderer::Data {
     const int samples = settings.samples;
     const gpu::Framebuffer& large = framebuffer(tile.width * samples, tile.height * samples, 1);
     large.bind();
-    const Vec3f colour = settings.background.value_or(Vec3f::Zero());
-    glClearColor(colour.x(), colour.y(), colour.z(), settings.background ? 1.0f : 0.0f);
+    glClearColor(0, 0, 0, 0);
     glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
     draw(view, clip_from_view, Output::color);
-    if (samples == 1) return large.read();
-    const gpu::Framebuffer& small = framebuffer(tile.width, tile.height, 1);
-    average(large, small, samples);
+    if (samples == 1 && !settings.background && !settings.display) return large.read();
+    // With one sample both are of one size, and nothing is read while it is written.
+    const gpu::Framebuffer& small = framebuffer(tile.width, tile.height, 1, samples == 1);
+    show(large, small, settings);
     return small.read();
   }
 
@@ -211,6 +214,8 @@ Picture Renderer::render(const scene::View& view, const PictureSettings& setting
   }
   const gpu::StateGuard guard;
   data_->settle(true);
+  constexpr std::size_t kKept = 12;
+  if (data_->framebuffers.size() > kKept) data_->framebuffers.clear();
   const int side = std::min(settings.tile, gpu::max_framebuffer_size()) / settings.samples;
   if (side < 1)
     throw Error(fmt::format("{} samples are more than this OpenGL driver can draw", settings.samples));

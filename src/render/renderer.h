@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 
+#include "sateen/core/display.h"
 #include "sateen/core/progress.h"
 #include "sateen/render/picture.h"
 #include "sateen/scene/camera.h"
@@ -14,10 +15,14 @@ namespace sateen::render {
 struct PictureSettings {
   int width = 1024;
   int height = 1024;
-  int samples = 3;                       ///< samples x samples in each pixel, averaged in linear light
-  std::optional<Vec3f> background = {};  ///< linear; nothing is transparent
-  bool surfaces = false;                 ///< fill Picture::surfaces too
-  int tile = 4096;  ///< largest side, in samples, drawn at once; more is put together from tiles
+  int samples = 3;  ///< samples x samples in each pixel, averaged in linear light
+  std::optional<Vec3f> background =
+      {};  ///< linear, not exposed nor seen through the view; nothing is transparent
+  /// Applied to each sample before they are averaged; nothing: the light of the scene as it is, for EXR, and
+  /// for baked light, which is shown as it was captured.
+  std::optional<DisplaySettings> display = {};
+  bool surfaces = false;  ///< fill Picture::surfaces too
+  int tile = 4096;        ///< largest side, in samples, drawn at once; more is put together from tiles
 };
 
 /// A scene on the GPU, drawn from any view; its materials, lighting and switches may change between frames

@@ -6,20 +6,14 @@
 #include <fmt/format.h>
 
 #include "sateen/core/error.h"
+#include "sateen/light/default_lighting.h"
 #include "sateen/light/environment.h"
 
 namespace sateen::scene {
 namespace {
 
-/// The lamp a scene without light is shown under.
-light::Lighting default_lighting() {
-  light::Lighting lighting;
-  light::PunctualLight key;
-  key.direction = Vec3(-0.4, 0.6, 0.7).normalized();
-  key.colour = Vec3::Constant(2.5);
-  lighting.lamps.push_back(key);
-  lighting.surroundings = light::even_surroundings(Vec3::Constant(0.25));
-  return lighting;
+light::Lighting lighting_of(light::DefaultLighting light) {
+  return {std::move(light.lamps), light::make_surroundings(light.sky)};
 }
 
 bool equal(const appearance::LightingKeys& a, const appearance::LightingKeys& b) {
@@ -55,7 +49,7 @@ light::Lighting make_lighting(std::span<const LoadedMaterial> materials, const L
                       light::turn_about_vertical(options.environment_turn));
     return lighting;
   }
-  return named == materials.end() ? default_lighting() : appearance::make_lighting(named->lighting);
+  return named == materials.end() ? lighting_of(light::default_lighting()) : appearance::make_lighting(named->lighting);
 }
 
 bool names_several_lights(std::span<const LoadedMaterial> materials) {

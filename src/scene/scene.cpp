@@ -8,7 +8,7 @@
 namespace sateen::scene {
 
 bool Scene::lit() const {
-  return std::ranges::any_of(materials,
+  return std::ranges::all_of(materials,
                              [](const Material& m) { return m.appearance && m.appearance->lit(); });
 }
 

@@ -61,7 +61,7 @@ struct Scene {
   light::Lighting lighting = {};         ///< of materials that are no baked light
   RenderSwitches switches = {};
 
-  /// Whether the lighting makes a difference to any material.
+  /// Whether all materials are lit by `lighting`, so that brightness means something only beside other light.
   bool lit() const;
 };
 

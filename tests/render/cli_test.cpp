@@ -138,6 +138,79 @@ TEST_F(RenderCli, BackgroundsAndOddSizes) {
   EXPECT_NEAR(picture.at(0, 0, 1), 128.0 / 255, 0.003);
 }
 
+// What cannot be transparent is white, and the user is told.
+TEST_F(RenderCli, AnOpaqueFileHasAWhiteBackgroundAndSaysSo) {
+  const std::string material = "--rotate 0,90,0 -m " + at("clay.exr") + " -o ";
+  for (const char* name : {"out.jpg", "out.hdr"}) {
+    const ProgramResult result = render("cloth.obj", material + at(name));
+    EXPECT_EQ(result.exit_code, 0) << result.output;
+    EXPECT_THAT(result.output, HasSubstr("background is white"));
+    EXPECT_NEAR(io::read_image(folder / name).at(0, 0, 0), 1, 1e-6) << name;
+    const ProgramResult asked = render("cloth.obj", "--background 0,0,0 " + material + at(name));
+    EXPECT_EQ(asked.output, "");
+    EXPECT_NEAR(io::read_image(folder / name).at(0, 0, 0), 0, 1e-6) << name;
+  }
+  const ProgramResult film = render("cloth.obj", "--turntable 2 " + material + at("turn.mp4"));
+  EXPECT_THAT(film.output, HasSubstr("background is white"));
+  EXPECT_EQ(render("cloth.obj", material + at("out.png")).output, "");
+  EXPECT_EQ(io::read_data(folder / "out.png").at(0, 0, 3), 0);
+}
+
+TEST_F(RenderCli, ExposureAndViewChangePicturesAndNoSceneLight) {
+  const std::string middle = "--camera view-space -m " + at("clay.exr") + " -o ";  // light of 0.25
+  const auto stored = [&](const std::string& options) {
+    const ProgramResult result = render("cloth.obj", options + " " + middle + at("out.png"));
+    EXPECT_EQ(result.exit_code, 0) << result.output;
+    return 255 * io::read_data(folder / "out.png").at(8, 8, 1);
+  };
+  EXPECT_NEAR(stored(""), 137, 0.1);  // sRGB of 0.25
+  EXPECT_NEAR(stored("--view srgb --exposure 0"), 137, 0.1);
+  EXPECT_NEAR(stored("--exposure 1"), 188, 0.1);     // of 0.5
+  EXPECT_NEAR(stored("--exposure -1"), 99, 0.1);     // of 0.125
+  EXPECT_NEAR(stored("--view none"), 64, 0.1);       // 0.25 itself
+  EXPECT_NEAR(stored("--view neutral"), 126, 0.1);   // of 0.25 - 0.04
+  EXPECT_NEAR(stored("--view agx"), 143, 0.1);       // of three.js' 0.27483
+  EXPECT_NEAR(stored("--exposure auto"), 118, 0.1);  // of 0.18
+  const ProgramResult exr = render("cloth.obj", "--exposure 1 " + middle + at("out.exr"));
+  EXPECT_THAT(exr.output, HasSubstr("--exposure"));
+  EXPECT_NEAR(io::read_image(folder / "out.exr").at(8, 8, 1), 0.25, 1e-3);
+}
+
+// A lamp of any strength gives the same picture; baked light is what it is.
+TEST_F(RenderCli, LitScenesAreExposedAndBakedLightIsNot) {
+  const auto lit = [&](const std::string& strength) {
+    io::write_text(
+        folder / "lit.json",
+        R"({"model": "layered", "base": {"color": 0.5}, "lights": [{"direction": [0, 0, 1], "color": )" +
+            strength + "}]}");
+    const ProgramResult result =
+        render("cloth.obj", "--camera view-space -m " + at("lit.json") + " -o " + at("out.png"));
+    EXPECT_EQ(result.exit_code, 0) << result.output;
+    EXPECT_THAT(result.output, HasSubstr("metered"));
+    return 255 * io::read_data(folder / "out.png").at(8, 8, 0);
+  };
+  EXPECT_NEAR(lit("0.001"), 118, 0.1);  // sRGB of 0.18
+  EXPECT_NEAR(lit("3000"), 118, 0.1);
+  const ProgramResult exr =
+      render("cloth.obj", "--camera view-space -m " + at("lit.json") + " -o " + at("out.exr"));
+  EXPECT_EQ(exr.output, "");
+  EXPECT_NEAR(io::read_image(folder / "out.exr").at(8, 8, 0), 3000 * 0.5 / kPi, 0.5);
+  EXPECT_EQ(render("cloth.obj", "-m " + at("clay.exr") + " -o " + at("out.png")).output, "");
+}
+
+TEST_F(RenderCli, ShadedPicturesAreShownLikeDrawnOnes) {
+  Image normals(2, 1, 3);
+  normals.set_rgb(0, 0, {0, 0, 1});  // and a pixel with nothing
+  io::write_data(folder / "normals.exr", normals);
+  const std::string shade =
+      "shade --normals " + at("normals.exr") + " -m " + at("clay.exr") + " --exposure 1 --view none -o ";
+  ASSERT_EQ(test::run_program(shade + at("out.png")).exit_code, 0);
+  EXPECT_NEAR(255 * io::read_data(folder / "out.png").at(0, 0, 0), 128, 0.6);
+  const ProgramResult jpeg = test::run_program(shade + at("out.jpg"));
+  EXPECT_THAT(jpeg.output, HasSubstr("background is white"));
+  EXPECT_GT(io::read_image(folder / "out.jpg").at(1, 0, 0), 0.9);
+}
+
 TEST_F(RenderCli, NoUvsIsExplainedAndProceduralTangentsHelp) {
   expect_wrong_input(render("bare.obj", "--material " + at("silk.ktx2") + " -o " + at("out.png")),
                      "--tangents around:y");
@@ -168,7 +241,8 @@ TEST_F(RenderCli, AWrongCommandLineExitsWithTwo) {
   for (const std::string option :
        {"--rotate 1,2", "--rotate a,b,c", "--background '#12'", "--tangents sideways",
         "--tangents around:0,0,0", "--aov beauty", "--camera fisheye", "--samples 0",
-        "--no-cyclic-fix --per-fragment", "--turntable -1"}) {
+        "--no-cyclic-fix --per-fragment", "--turntable -1", "--exposure bright", "--exposure 1,5",
+        "--exposure 99", "--exposure nan", "--view filmic"}) {
     EXPECT_EQ(render("cloth.obj", rest + " " + option).exit_code, 2) << option;
   }
   for (const std::string size : {"0", "10x", "x10", "10x10x10", "99999999x1", "-4"}) {
