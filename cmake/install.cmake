@@ -1,13 +1,13 @@
 # SPDX-License-Identifier: MIT
-# find_package(sateen) for outside projects. Shaders are embedded in the library, so that headers, the library and these
+# find_package(sateen) for outside projects. Shaders are embedded in the library, so that public headers, the library and these
 # CMake files are all there is.
 include(CMakePackageConfigHelpers)
 set(package ${CMAKE_INSTALL_LIBDIR}/cmake/sateen)
 
 set_target_properties(sateen PROPERTIES VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
 install(TARGETS sateen EXPORT sateenTargets COMPONENT development
-  LIBRARY COMPONENT development ARCHIVE COMPONENT development RUNTIME COMPONENT development)
-install(DIRECTORY src/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/sateen COMPONENT development FILES_MATCHING PATTERN "*.h")
+  LIBRARY COMPONENT development ARCHIVE COMPONENT development RUNTIME COMPONENT development
+  FILE_SET HEADERS COMPONENT development)
 install(EXPORT sateenTargets NAMESPACE sateen:: DESTINATION ${package} COMPONENT development)
 
 configure_package_config_file(cmake/sateenConfig.cmake.in sateenConfig.cmake INSTALL_DESTINATION ${package})

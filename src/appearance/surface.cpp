@@ -28,7 +28,7 @@ constexpr auto kFields = [] {
   std::array fields{
 #define SURFACE_FIELD(type, glsl, name, aov, input, meaning, ...) \
   SurfaceFieldInfo{SurfaceField::name, #name, aov, input, meaning, 0, kComponents<type>},
-#include "sateen/appearance/surface_fields.inc"
+#include "sateen/appearance/surface_fields.h"
   };
   int first = 0;
   for (SurfaceFieldInfo& field : fields) {
@@ -58,7 +58,7 @@ void set_field(Surface& surface, SurfaceField field, std::span<const float> comp
   case SurfaceField::name:                   \
     take(components, surface.name);          \
     break;
-#include "sateen/appearance/surface_fields.inc"
+#include "sateen/appearance/surface_fields.h"
   }
 }
 

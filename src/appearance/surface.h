@@ -8,17 +8,17 @@
 
 namespace sateen::appearance {
 
-/// A surface point as an appearance sees it, in C++ and in GLSL: the rows of surface_fields.inc, which say
+/// A surface point as an appearance sees it, in C++ and in GLSL: the rows of surface_fields.h, which say
 /// what each field means. Directions are unit vectors in view space (x right, y up, z towards the viewer).
 struct Surface {
 #define SURFACE_FIELD(type, glsl, name, aov, input, meaning, ...) type name{__VA_ARGS__};
-#include "sateen/appearance/surface_fields.inc"
+#include "sateen/appearance/surface_fields.h"
 };
 
 /// The fields by name.
 enum class SurfaceField {
 #define SURFACE_FIELD(type, glsl, name, ...) name,
-#include "sateen/appearance/surface_fields.inc"
+#include "sateen/appearance/surface_fields.h"
 };
 
 /// What is said of a field besides its value. Packed, a Surface is a row of floats in which each field has

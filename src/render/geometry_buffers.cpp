@@ -18,7 +18,7 @@ enum Attribute : GLuint {
   kCurvatureOff,
 #define SURFACE_FIELD(...)
 #define SURFACE_VERTEX_FIELD(type, glsl, name, ...) k_##name,
-#include "sateen/appearance/surface_fields.inc"
+#include "sateen/appearance/surface_fields.h"
 };
 
 /// What a mesh without the attribute has; generic attributes belong to the context, not to the vertex array.
@@ -78,7 +78,7 @@ GeometryBuffers::GeometryBuffers(const scene::Scene& scene)
 #define SURFACE_FIELD(...)
 #define SURFACE_VERTEX_FIELD(type, glsl, name, aov, input, mesh_array, ...) \
   attribute(k_##name, mesh.mesh_array, kSize<std::decay_t<decltype(mesh.mesh_array[0])>>);
-#include "sateen/appearance/surface_fields.inc"
+#include "sateen/appearance/surface_fields.h"
   if (!mesh.curvature_forms.empty()) {
     attribute(kCurvatureDiagonal, mesh.curvature_forms, 3);
     const auto stride = static_cast<GLsizei>(sizeof(mesh.curvature_forms[0]));
@@ -113,7 +113,7 @@ void GeometryBuffers::draw(std::size_t material) const {
   const appearance::Surface standard;
 #define SURFACE_FIELD(...)
 #define SURFACE_VERTEX_FIELD(type, glsl, name, ...) set_standard(k_##name, standard.name);
-#include "sateen/appearance/surface_fields.inc"
+#include "sateen/appearance/surface_fields.h"
   glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(count), GL_UNSIGNED_INT,
                  reinterpret_cast<const void*>(first * sizeof(std::uint32_t)));
 }

@@ -87,7 +87,7 @@ const std::vector<std::string>& vertex_attributes() {
       "in_position", "in_normal", "in_tangent", "in_map_tangent", "in_curvature_diagonal", "in_curvature_off",
 #define SURFACE_FIELD(...)
 #define SURFACE_VERTEX_FIELD(type, glsl, name, ...) "in_" #name,
-#include "sateen/appearance/surface_fields.inc"
+#include "sateen/appearance/surface_fields.h"
   };
   return names;
 }

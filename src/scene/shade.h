@@ -10,7 +10,7 @@
 namespace sateen::scene {
 
 /// Pictures of a surface, all of one size, row 0 on top, by the fields they hold: those with an input name in
-/// surface_fields.inc. Directions may have any length; a normal, tangent or position of zero is an empty
+/// surface_fields.h. Directions may have any length; a normal, tangent or position of zero is an empty
 /// pixel. Without positions the view is +z everywhere; with them the eye is at the origin.
 using ShadeInputs = std::map<appearance::SurfaceField, Image>;
 

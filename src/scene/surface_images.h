@@ -29,7 +29,7 @@ int packed_pictures();
 /// The surface point at a pixel's centre as an appearance takes it; nothing where nothing was drawn.
 std::optional<appearance::Surface> surface_at(const SurfaceImages& images, int x, int y);
 
-/// Arbitrary output variables by name, as surface_fields.inc has them.
+/// Arbitrary output variables by name, as surface_fields.h has them.
 std::span<const std::string> aov_names();
 
 /// One of them, taken at pixel centres, row 0 on top, 0 where nothing was drawn. Throws Error for an unknown

@@ -6,7 +6,11 @@
 //
 // SURFACE_FIELD(C++ type, GLSL type, name, AOV or "", input of `shade` or "", meaning, value where nothing is known...)
 // SURFACE_VERTEX_FIELD(..., array of core/mesh.h between input and meaning): interpolated from the mesh's vertices.
-// Types: double/float, int, Vec2/vec2, Vec3/vec3, Vec4/vec4. One row a line: a script of CMake reads this file too.
+// Include it as often as there are tables to make: each time it forgets both macros. Types: double/float, int, Vec2/vec2, Vec3/vec3, Vec4/vec4. One row a line: a script of CMake reads this file too.
+// clang-format off
+#ifndef SURFACE_FIELD
+#define SURFACE_FIELD(...)
+#endif
 #ifndef SURFACE_VERTEX_FIELD
 #define SURFACE_VERTEX_FIELD(type, glsl, name, aov, input, mesh_array, ...) SURFACE_FIELD(type, glsl, name, aov, input, __VA_ARGS__)
 #endif

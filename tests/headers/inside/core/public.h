@@ -1,0 +1,4 @@
+// SPDX-License-Identifier: MIT
+// Wrong on purpose: includes what is not public.
+#pragma once
+#include "sateen/core/inside.h"
