@@ -8,7 +8,7 @@
 #include "command.h"
 #include "commands.h"
 #include "sateen/amc/amc_file.h"
-#include "sateen/capture/live.h"
+#include "sateen/capture/rig/live.h"
 #include "sateen/core/error.h"
 
 namespace sateen::cli {

@@ -6,8 +6,8 @@
 #include <fmt/format.h>
 
 #include "command.h"
-#include "sateen/capture/live.h"
 #include "sateen/capture/report.h"
+#include "sateen/capture/rig/live.h"
 #include "sateen/core/error.h"
 #include "sateen/io/file.h"
 #include "sateen/io/image.h"

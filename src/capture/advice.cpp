@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "sateen/capture/used_frames.h"
+#include "sateen/capture/turning/used_frames.h"
 
 namespace sateen::capture {
 namespace {

@@ -8,13 +8,13 @@
 
 #include "sateen/amc/symmetry.h"
 #include "sateen/amc/table.h"
-#include "sateen/capture/assemble.h"
-#include "sateen/capture/camera.h"
-#include "sateen/capture/focal_estimate.h"
-#include "sateen/capture/frame_source.h"
-#include "sateen/capture/photometry.h"
-#include "sateen/capture/stack.h"
-#include "sateen/capture/surface_mask.h"
+#include "sateen/capture/exposure/photometry.h"
+#include "sateen/capture/photographs/frame_source.h"
+#include "sateen/capture/sphere/camera.h"
+#include "sateen/capture/sphere/focal_estimate.h"
+#include "sateen/capture/table/assemble.h"
+#include "sateen/capture/table/stack.h"
+#include "sateen/capture/table/surface_mask.h"
 #include "sateen/core/progress.h"
 
 namespace sateen::capture {

@@ -8,9 +8,9 @@
 
 #include <tbb/enumerable_thread_specific.h>
 
-#include "sateen/capture/choose_camera.h"
-#include "sateen/capture/median.h"
+#include "sateen/capture/sphere/choose_camera.h"
 #include "sateen/core/error.h"
+#include "sateen/core/median.h"
 
 namespace sateen::capture {
 namespace {

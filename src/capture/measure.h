@@ -5,10 +5,10 @@
 #include <vector>
 
 #include "sateen/capture/capture.h"
-#include "sateen/capture/focal_estimate.h"
-#include "sateen/capture/outline.h"
-#include "sateen/capture/still_mask.h"
-#include "sateen/capture/turning.h"
+#include "sateen/capture/sphere/focal_estimate.h"
+#include "sateen/capture/sphere/outline.h"
+#include "sateen/capture/sphere/still_mask.h"
+#include "sateen/capture/turning/turning.h"
 
 namespace sateen::capture {
 

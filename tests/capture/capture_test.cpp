@@ -9,7 +9,7 @@
 
 #include "capture/judge.h"
 #include "capture/simulator.h"
-#include "sateen/capture/surface_mask.h"
+#include "sateen/capture/table/surface_mask.h"
 #include "sateen/core/direction.h"
 #include "sateen/core/error.h"
 #include "sateen/io/file.h"

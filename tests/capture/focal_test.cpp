@@ -7,8 +7,8 @@
 #include <gtest/gtest.h>
 
 #include "capture/judge.h"
-#include "sateen/capture/choose_camera.h"
-#include "sateen/capture/focal_estimate.h"
+#include "sateen/capture/sphere/choose_camera.h"
+#include "sateen/capture/sphere/focal_estimate.h"
 #include "sateen/core/direction.h"
 
 namespace sateen::capture {

@@ -6,8 +6,8 @@
 
 #include "capture/altered_frames.h"
 #include "capture/simulator.h"
+#include "sateen/capture/exposure/mirror_ball_shot.h"
 #include "sateen/capture/measure.h"
-#include "sateen/capture/mirror_ball_shot.h"
 #include "sateen/core/direction.h"
 #include "sateen/core/error.h"
 #include "sateen/io/image.h"

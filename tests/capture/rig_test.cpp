@@ -9,7 +9,7 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "capture/judge.h"
-#include "sateen/capture/sphere_registration.h"
+#include "sateen/capture/turning/sphere_registration.h"
 #include "sateen/core/direction.h"
 #include "sateen/core/error.h"
 #include "sateen/io/file.h"
