@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "sateen/capture/exposure/mirror_ball.h"
+#include "sateen/capture/sphere/first_look.h"
 #include "sateen/core/error.h"
 
 namespace sateen::capture {
@@ -14,10 +15,12 @@ constexpr double kScattered = 1;  // pixels: edge points of a real outline lie c
 
 }  // namespace
 
-Image mirror_ball_shot(const CaptureOptions& options, const FirstLook& look, const Camera& camera) {
-  FrameSource source = FrameSource::open({options.mirror_ball}, options.source);
+Image mirror_ball_shot(const MirrorBallOptions& options, const FrameSourceOptions& source_options,
+                       const FirstLook& look) {
+  FrameSource source = FrameSource::open({options.picture}, source_options);
+  const Camera& camera = look.lens.camera;
   if (source.width() != camera.width || source.height() != camera.height) {
-    throw Error(fmt::format("{}: is {} x {}, the frames are {} x {}", options.mirror_ball.string(),
+    throw Error(fmt::format("{}: is {} x {}, the frames are {} x {}", options.picture.string(),
                             source.width(), source.height(), camera.width, camera.height));
   }
   const Photograph frame = source.read(0);
@@ -36,10 +39,10 @@ Image mirror_ball_shot(const CaptureOptions& options, const FirstLook& look, con
   }
   if (support < 0.4 || scatter > kScattered) {
     throw Error(fmt::format("{}: no ball is found where the sphere stood; put it on the same stand",
-                            options.mirror_ball.string()));
+                            options.picture.string()));
   }
   const SphereView ball = sphere_at(camera, centre * look.factor, radius * look.factor);
-  return mirror_ball_environment(frame, camera, ball, kEnvironmentWidth, options.mirror_reflectance);
+  return mirror_ball_environment(frame, camera, ball, kEnvironmentWidth, options.reflectance);
 }
 
 }  // namespace sateen::capture

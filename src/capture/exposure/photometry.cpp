@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <fmt/format.h>
+
 #include "sateen/core/median.h"
 #include "sateen/core/parallel.h"
 
@@ -14,45 +16,10 @@ constexpr std::size_t kFewest = 60;  // still points below which nothing is corr
 
 }  // namespace
 
-StillPoints still_points(const Scouting& scouting, int grey_width, int grey_height, int factor,
-                         double clearance, std::size_t count) {
-  std::vector<Eigen::Vector2i> candidates;
-  for (int y = 2; y < grey_height - 2; y += 2) {
-    for (int x = 2; x < grey_width - 2; x += 2) {
-      if ((Vec2(x + 0.5, y + 0.5) - scouting.centre).norm() < scouting.radius + clearance) continue;
-      const auto i = pixel_index(x, y, grey_width);
-      if (static_cast<double>(scouting.activity[i]) > 3 * scouting.noise) continue;
-      if (scouting.mean[i] < 40 || scouting.mean[i] > 235) continue;
-      candidates.emplace_back(x * factor + factor / 2, y * factor + factor / 2);
-    }
-  }
-  StillPoints points;
-  const std::size_t n = std::min(count, candidates.size());
-  for (std::size_t i = 0; i < n; ++i) points.pixels.push_back(candidates[i * candidates.size() / n]);
-  return points;
-}
-
-std::vector<Vec3f> sample_still_points(const StillPoints& points, const Photograph& frame) {
-  std::vector<Vec3f> samples;
-  samples.reserve(points.pixels.size());
-  for (const Eigen::Vector2i& p : points.pixels) {
-    Vec3f sum(0, 0, 0);
-    bool clipped = false;
-    for (int y = p.y() - 1; y <= p.y() + 1; ++y) {
-      for (int x = p.x() - 1; x <= p.x() + 1; ++x) {
-        clipped = clipped || frame.clipped(x, y);
-        sum += frame.rgb(x, y);
-      }
-    }
-    samples.push_back(clipped ? Vec3f(-1, -1, -1) : Vec3f(sum / 9));
-  }
-  return samples;
-}
-
-Photometry solve_photometry(std::span<const std::vector<Vec3f>> samples, const StillPoints& points,
-                            int height) {
+Photometry solve_photometry(std::span<const std::vector<Vec3f>> samples,
+                            std::span<const Eigen::Vector2i> points, int height) {
   const std::size_t frames = samples.size();
-  const std::size_t n = points.pixels.size();
+  const std::size_t n = points.size();
   Photometry result;
   result.gain.assign(frames, Vec3(1, 1, 1));
   if (n < kFewest || frames == 0) return result;
@@ -85,7 +52,7 @@ Photometry solve_photometry(std::span<const std::vector<Vec3f>> samples, const S
           if (samples[f][p][c] < 0 || reference[p][c] < 0.004f) continue;
           const float ratio = samples[f][p][c] / reference[p][c];
           values.push_back(ratio);
-          if (c == 1) half[points.pixels[p].y() * 2 < height ? 0 : 1].push_back(ratio);
+          if (c == 1) half[points[p].y() * 2 < height ? 0 : 1].push_back(ratio);
         }
         result.gain[f][c] = values.size() >= kFewest ? static_cast<double>(middle_of(values)) : 1;
       }
@@ -108,6 +75,29 @@ Photometry solve_photometry(std::span<const std::vector<Vec3f>> samples, const S
   result.banding = std::sqrt(squares / static_cast<double>(frames));
   result.measured = true;
   return result;
+}
+
+std::vector<std::string> advice(const Photometry& photometry) {
+  std::vector<std::string> warnings;
+  if (!photometry.measured) {
+    warnings.emplace_back(
+        "too little of the picture stands still and is lit, so exposure drift was not removed. Leave some "
+        "lit background around the sphere, or fix the camera's exposure");
+  }
+  if (photometry.drift > 0.15) {
+    warnings.push_back(
+        fmt::format("the exposure changes by up to {:.0f} %: the light flickers or the camera adapts. It was "
+                    "removed; fix exposure and white balance for less noise",
+                    100 * photometry.drift));
+  }
+  if (photometry.banding > 0.02) {
+    warnings.push_back(fmt::format(
+        "the upper and lower half of the picture flicker apart by {:.1f} %: a lamp pulses faster than the "
+        "camera reads a frame. Use a flicker-free lamp or an exposure of a whole mains period (1/50 or "
+        "1/60 s)",
+        100 * photometry.banding));
+  }
+  return warnings;
 }
 
 }  // namespace sateen::capture

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sateen/capture/sphere/camera.h"
+#include "sateen/capture/photographs/lens_notes.h"
 
 namespace sateen::capture {
 

@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "sateen/capture/photographs/photograph.h"
-#include "sateen/capture/sphere/camera.h"
 
 namespace sateen::capture {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include <OpenImageIO/imageio.h>
+#include "sateen/capture/photographs/lens_notes.h"
 
-#include "sateen/capture/sphere/camera.h"
+#include <OpenImageIO/imageio.h>
 
 namespace sateen::capture {
 

@@ -6,21 +6,11 @@
 #include <span>
 #include <vector>
 
+#include "sateen/capture/photographs/response.h"
 #include "sateen/core/image.h"
 #include "sateen/io/picture8.h"
 
 namespace sateen::capture {
-
-/// From the code values of a camera or file to linear light, both in [0, 1]; any number of evenly spaced
-/// entries, linear between them.
-struct Response {
-  std::vector<float> curve;
-
-  static Response srgb();
-  static Response linear();
-  static Response gamma(double exponent);
-  float operator()(float code) const;
-};
 
 /// One picture of a capture: 8-bit code values with the response that makes them light, or light itself.
 /// Made once and then read by one thread or many.

@@ -65,7 +65,6 @@ Calibration calibrate(const std::vector<std::filesystem::path>& pictures, int co
   // OpenCV counts from the middle of the first pixel, we from its corner.
   camera.principal = {matrix.at<double>(0, 2) + 0.5, matrix.at<double>(1, 2) + 0.5};
   for (int i = 0; i < 5; ++i) camera.distortion[static_cast<std::size_t>(i)] = distortion.at<double>(i);
-  camera.focal_source = "calibration";
   return result;
 }
 

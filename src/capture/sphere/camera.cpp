@@ -83,7 +83,6 @@ Camera read_camera(const std::filesystem::path& path) {
     camera.focal = {json.at("focal").at(0).get<double>(), json.at("focal").at(1).get<double>()};
     camera.principal = {json.at("principal").at(0).get<double>(), json.at("principal").at(1).get<double>()};
     camera.distortion = json.at("distortion").get<std::array<double, 5>>();
-    camera.focal_source = "calibration";
     if (camera.width < 1 || camera.height < 1 || !(camera.focal.minCoeff() > 0)) {
       throw Error(fmt::format("{}: picture size and focal length must be positive", path.string()));
     }

@@ -3,7 +3,6 @@
 
 #include <array>
 #include <filesystem>
-#include <string>
 
 #include "sateen/core/vector.h"
 
@@ -15,10 +14,9 @@ namespace sateen::capture {
 struct Camera {
   int width = 0;
   int height = 0;
-  Vec2 focal{0, 0};                      ///< pixels, along x and y
-  Vec2 principal{0, 0};                  ///< pixels
-  std::array<double, 5> distortion{};    ///< k1, k2, p1, p2, k3 as OpenCV orders them; all 0: none
-  std::string focal_source = "assumed";  ///< where the focal length comes from, for the report
+  Vec2 focal{0, 0};                    ///< pixels, along x and y
+  Vec2 principal{0, 0};                ///< pixels
+  std::array<double, 5> distortion{};  ///< k1, k2, p1, p2, k3 as OpenCV orders them; all 0: none
 
   /// A distortion-free camera with the principal point in the middle; `focal_pixels` for both axes.
   static Camera pinhole(int width, int height, double focal_pixels);
@@ -44,14 +42,5 @@ double focal_of_fov(int width, double fov);
 /// no such JSON, or has impossible values.
 Camera read_camera(const std::filesystem::path& path);
 void write_camera(const std::filesystem::path& path, const Camera& camera, double rms_pixels);
-
-/// What the camera's own notes say of the lens, from EXIF; zeros where it does not say. Never throws for
-/// unreadable EXIF: that is as good as none.
-struct LensNotes {
-  double focal_mm = 0;
-  double focal_35mm = 0;     ///< equivalent on a 36 mm wide sensor
-  double exposure_time = 0;  ///< seconds
-};
-LensNotes read_lens_notes(const std::filesystem::path& path);
 
 }  // namespace sateen::capture

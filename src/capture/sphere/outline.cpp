@@ -14,25 +14,14 @@ namespace sateen::capture {
 namespace {
 
 constexpr int kAzimuths = 240;
-constexpr double kStep = 0.5;  // pixels between samples of a profile
-
-constexpr std::array<double, 256> kLight = [] {
-  std::array<double, 256> light{};
-  for (std::size_t code = 0; code < light.size(); ++code)
-    light[code] = static_cast<double>(code * code) / (255.0 * 255.0);
-  return light;
-}();
-
-double light_of(std::uint8_t code) {
-  return kLight[code];
-}
+constexpr double kProfileStep = 0.5;  // pixels between samples of a profile
 
 /// The four pixels of a picture around a point, clamped to the edge, and how far it lies from the first.
-struct Corners {
+struct FourPixels {
   std::array<std::size_t, 4> pixels;
   double fx, fy;
 
-  Corners(int width, int height, const Vec2& p) {
+  FourPixels(int width, int height, const Vec2& p) {
     const double cx = std::clamp(p.x() - 0.5, 0.0, width - 1.0);
     const double cy = std::clamp(p.y() - 0.5, 0.0, height - 1.0);
     const int x0 = static_cast<int>(cx);
@@ -51,13 +40,15 @@ struct Corners {
 };
 
 /// Edges are mixtures of light, not of codes.
-double light_at(const GreyPicture& picture, const Corners& at) {
-  const auto light = [&](std::size_t corner) { return light_of(picture.codes[at.pixels[corner]]); };
+double light_at(const GreyPicture& picture, const FourPixels& at) {
+  const auto light = [&](std::size_t corner) {
+    return kLightOfCode<double>[picture.codes[at.pixels[corner]]];
+  };
   return at.between(light(0), light(1), light(2), light(3));
 }
 
 /// Over the plate's known pixels; negative when any of the four is hidden.
-double plate_at(const Plate& plate, const Corners& at) {
+double plate_at(const Plate& plate, const FourPixels& at) {
   const auto light = [&](std::size_t corner) { return static_cast<double>(plate.light[at.pixels[corner]]); };
   if (std::min({light(0), light(1), light(2), light(3)}) < 0) return -1;
   return at.between(light(0), light(1), light(2), light(3));
@@ -76,7 +67,7 @@ bool find_edge(const std::vector<double>& difference, double reach, EdgePoint& e
   std::vector<double> slope(n, 0);
   std::size_t peak = 0;
   for (std::size_t i = 1; i + 1 < n; ++i) {
-    slope[i] = (difference[i + 1] - difference[i - 1]) / (2 * kStep);
+    slope[i] = (difference[i + 1] - difference[i - 1]) / (2 * kProfileStep);
     if (std::abs(slope[i]) > std::abs(slope[peak])) peak = i;
   }
   if (peak < 3 || peak + 3 >= n) return false;
@@ -88,7 +79,7 @@ bool find_edge(const std::vector<double>& difference, double reach, EdgePoint& e
     sum += s;
     moment += s * static_cast<double>(i);
   }
-  edge.offset = moment / sum * kStep - reach;
+  edge.offset = moment / sum * kProfileStep - reach;
   edge.strength = std::abs(slope[peak]);
   return true;
 }
@@ -162,7 +153,7 @@ void quieten(std::vector<std::vector<double>>& profiles, double noise) {
 std::vector<EdgePoint> find_edges(const GreyPicture& frame, double gain, const Plate& plate,
                                   const Camera& camera, const SphereView& sphere, double reach) {
   const Vec2 centre = sphere.centre_pixel(camera);
-  const auto n = static_cast<std::size_t>(2 * reach / kStep) + 1;
+  const auto n = static_cast<std::size_t>(2 * reach / kProfileStep) + 1;
   const double light_gain = gain * gain;
   std::vector<std::vector<double>> profiles(kAzimuths, std::vector<double>(n));
   std::vector<Vec2> outward(kAzimuths);
@@ -173,8 +164,8 @@ std::vector<EdgePoint> find_edges(const GreyPicture& frame, double gain, const P
     outward[i] = (rim - centre).normalized();
     double background = -1;
     for (std::size_t j = n; j-- > 0;) {
-      const Vec2 p = rim + (static_cast<double>(j) * kStep - reach) * outward[i];
-      const Corners at(frame.width, frame.height, p);
+      const Vec2 p = rim + (static_cast<double>(j) * kProfileStep - reach) * outward[i];
+      const FourPixels at(frame.width, frame.height, p);
       const double known = plate_at(plate, at);
       // Behind the sphere the background is unknown: it goes on as it was last seen.
       if (known >= 0) background = known;
@@ -249,7 +240,7 @@ class Background {
         for (std::size_t f = 0; f < frames_.size(); ++f) {
           if (!clear && ray.dot(spheres[f]) > own) continue;
           const double gain = static_cast<double>(scouting_.gain[f]);
-          values.push_back(static_cast<float>(light_of(frames_[f].codes[i]) / (gain * gain)));
+          values.push_back(static_cast<float>(kLightOfCode<double>[frames_[f].codes[i]] / (gain * gain)));
         }
         if (values.empty()) continue;
         plate_.light[i] = middle_of(values);

@@ -14,54 +14,6 @@
 
 namespace sateen::capture {
 
-int grey_factor(int width, int height) {
-  return std::max(1, (std::max(width, height) + 1279) / 1280);
-}
-
-GreyPicture grey_picture(const Photograph& frame, int factor) {
-  GreyPicture picture;
-  grey_picture(frame, factor, {0, 0, frame.width() / factor, frame.height() / factor}, picture);
-  return picture;
-}
-
-namespace {
-
-/// The code of all light from 0 to Photograph::kWhite.
-const std::vector<std::uint8_t>& codes_of_light() {
-  static const std::vector<std::uint8_t> codes = [] {
-    std::vector<std::uint8_t> table(Photograph::kWhite + 1);
-    for (std::size_t light = 0; light < table.size(); ++light) {
-      const double share = static_cast<double>(light) / Photograph::kWhite;
-      table[light] = static_cast<std::uint8_t>(std::lround(255 * std::sqrt(share)));
-    }
-    return table;
-  }();
-  return codes;
-}
-
-}  // namespace
-
-void grey_picture(const Photograph& frame, int factor, const GreyRegion& region, GreyPicture& picture) {
-  picture.width = frame.width() / factor;
-  picture.height = frame.height() / factor;
-  picture.codes.resize(static_cast<std::size_t>(picture.width) * static_cast<std::size_t>(picture.height));
-  const int first = std::max(0, region.left);
-  const int end = std::min(picture.width, region.right);
-  if (first >= end) return;
-  const std::vector<std::uint8_t>& code_of = codes_of_light();
-  const int pixels = factor * factor;
-  std::vector<int> sums(static_cast<std::size_t>(end - first));
-  for (int y = std::max(0, region.top); y < std::min(picture.height, region.bottom); ++y) {
-    std::ranges::fill(sums, 0);
-    for (int v = 0; v < factor; ++v) frame.add_grey_row(first * factor, y * factor + v, factor, sums);
-    std::uint8_t* codes = &picture.codes[pixel_index(first, y, picture.width)];
-    if (pixels > 1) {
-      for (int& sum : sums) sum /= pixels;
-    }
-    for (std::size_t i = 0; i < sums.size(); ++i) codes[i] = code_of[static_cast<std::size_t>(sums[i])];
-  }
-}
-
 namespace {
 
 /// Every 7th pixel of every 7th row: enough for medians over a picture.
@@ -98,6 +50,8 @@ void measure_activity(std::span<const GreyPicture> frames, Scouting& scouting) {
   const int width = frames[0].width;
   const int height = frames[0].height;
   const std::size_t pixels = frames[0].codes.size();
+  scouting.width = width;
+  scouting.height = height;
   scouting.mean.assign(pixels, 0);
   scouting.activity.assign(pixels, 0);
   scouting.gain = gains(frames);
@@ -172,7 +126,9 @@ struct Blob {
 };
 
 /// The round active areas, largest first.
-std::vector<Blob> active_blobs(const Scouting& s, int width, int height, double threshold) {
+std::vector<Blob> active_blobs(const Scouting& s, double threshold) {
+  const int width = s.width;
+  const int height = s.height;
   cv::Mat mask(height, width, CV_8U);
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {
@@ -259,8 +215,7 @@ double background_motion(const cv::Mat& first, const cv::Mat& second) {
   return response > 0.05 ? 2 * std::hypot(shift.x, shift.y) : 0;
 }
 
-void check_camera(std::span<const GreyPicture> frames, int factor, const std::vector<Circle>& spheres,
-                  Scouting& s) {
+void check_camera(std::span<const GreyPicture> frames, int factor, const std::vector<Circle>& spheres) {
   const std::size_t n = frames.size();
   constexpr std::size_t kCompared = 4;
   std::array<cv::Mat, kCompared + 1> details;
@@ -273,7 +228,6 @@ void check_camera(std::span<const GreyPicture> frames, int factor, const std::ve
   for (std::size_t i = 1; i <= kCompared; ++i) {
     const std::size_t f = frame_of(i);
     const double moved = background_motion(details[0], details[i]);
-    s.moved = std::max(s.moved, moved);
     if (moved > 1.5) {
       throw Error(fmt::format(
           "the camera moved by about {:.1f} pixels between {:.0f} % and {:.0f} % of the sequence; fix camera "
@@ -290,8 +244,6 @@ void check_camera(std::span<const GreyPicture> frames, int factor, const std::ve
 Scouting find_sphere(std::span<const GreyPicture> frames, int factor) {
   Scouting s;
   measure_activity(frames, s);
-  const int width = frames[0].width;
-  const int height = frames[0].height;
 
   std::vector<float> sorted;
   for (std::size_t i = 0; i < s.activity.size(); i += kGrid) sorted.push_back(s.activity[i]);
@@ -309,7 +261,7 @@ Scouting find_sphere(std::span<const GreyPicture> frames, int factor) {
   std::vector<std::vector<Blob>> blobs_at(thresholds.size());
   parallel_for(static_cast<int>(thresholds.size()), [&](int i) {
     const auto at = static_cast<std::size_t>(i);
-    blobs_at[at] = active_blobs(s, width, height, thresholds[at] * s.noise);
+    blobs_at[at] = active_blobs(s, thresholds[at] * s.noise);
   });
   for (const std::vector<Blob>& blobs : blobs_at) {
     for (const Blob& blob : blobs) {
@@ -322,7 +274,7 @@ Scouting find_sphere(std::span<const GreyPicture> frames, int factor) {
     }
   }
   if (best.area <= 0) {
-    check_camera(frames, factor, {}, s);
+    check_camera(frames, factor, {});
     throw Error(
         "no sphere found: nothing round changes between the frames. The sphere has to turn while camera, "
         "lamps and "
@@ -336,7 +288,7 @@ Scouting find_sphere(std::span<const GreyPicture> frames, int factor) {
       spheres.push_back(other.circle);
     }
   }
-  check_camera(frames, factor, spheres, s);
+  check_camera(frames, factor, spheres);
   if (spheres.size() > 1) {
     const Vec2 first = factor * spheres[0].centre;
     const Vec2 second = factor * spheres[1].centre;
@@ -346,12 +298,12 @@ Scouting find_sphere(std::span<const GreyPicture> frames, int factor) {
   }
   const Vec2& c = best.circle.centre;
   const double r = best.circle.radius;
-  if (c.x() - r < -1 || c.y() - r < -1 || c.x() + r > width + 1 || c.y() + r > height + 1) {
+  if (c.x() - r < -1 || c.y() - r < -1 || c.x() + r > s.width + 1 || c.y() + r > s.height + 1) {
     throw Error(
         fmt::format("the sphere (centre ({:.0f}, {:.0f}), radius {:.0f} of a picture of {} x {}) is cut by "
                     "the picture's edge; the "
                     "whole outline has to be visible",
-                    factor * c.x(), factor * c.y(), factor * r, factor * width, factor * height));
+                    factor * c.x(), factor * c.y(), factor * r, factor * s.width, factor * s.height));
   }
   s.centre = c;
   s.radius = r;

@@ -1,13 +1,20 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "sateen/capture/measure.h"
+#include <span>
+#include <string>
+#include <vector>
+
+#include "sateen/capture/photographs/frame_source.h"
+#include "sateen/capture/table/frame.h"
+#include "sateen/capture/table/stack.h"
+#include "sateen/core/progress.h"
 
 namespace sateen::capture {
 
-/// The second pass over the pictures: rectifies every used frame of `result`, whose camera, sphere, axis and
-/// frames are known. Sets the result's preview and what is clipped; warns in it.
-RectifiedStack collect_stack(FrameSource& source, const FirstLook& look, const StillMask& still,
-                             const CaptureOptions& options, const Progress& progress, CaptureResult& result);
+/// The second pass over the pictures: rectifies every frame that is used, all with `map`. `axis` is the
+/// turning's.
+RectifiedStack collect_stack(FrameSource& source, const RectifyMap& map, std::span<const CaptureFrame> frames,
+                             const Vec3& axis, const Progress& progress);
 
 }  // namespace sateen::capture

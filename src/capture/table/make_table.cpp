@@ -2,10 +2,9 @@
 #include "sateen/capture/table/make_table.h"
 
 #include <algorithm>
+#include <utility>
 
-#include <fmt/format.h>
-
-#include "sateen/core/direction.h"
+#include "sateen/capture/table/assemble.h"
 #include "sateen/core/parallel.h"
 
 namespace sateen::capture {
@@ -64,27 +63,21 @@ amc::SymmetryReport symmetry_of(const RectifiedStack& all, const SurfaceMask& ma
 
 }  // namespace
 
-void make_table(const RectifiedStack& stack, double first_angle, const CaptureOptions& options,
-                CaptureResult& result) {
-  result.symmetry = symmetry_of(stack, result.mask, first_angle, options.symmetry_threshold);
-  const int symmetry = options.symmetry.value_or(result.symmetry.symmetry);
-  AssembledSlices slices = assemble(stack, result.mask, first_angle, options.slices, symmetry);
-  result.table = amc::AmcTable(options.size, options.slices, symmetry);
-  result.table.encoding = options.encoding;
-  result.table.isotropic = !options.symmetry && result.symmetry.isotropic;
-  parallel_for(options.slices, [&](int i) {
-    amc::set_slice_image(result.table, i, slices.slices[static_cast<std::size_t>(i)]);
-  });
-  amc::quantise(result.table);
-  result.seen_share = slices.seen_share;
-  result.seen = std::move(slices.seen);
-  result.table.provenance = {
-      {"source", "capture"},
-      {"frames", fmt::format("{} of {}", stack.frames.size(), result.frames.size())},
-      {"first_angle_degrees", fmt::format("{:.3f}", degrees(wrap(first_angle, 2 * kPi)))},
-      {"focal_pixels", fmt::format("{:.2f} ({})", result.camera.focal.x(), result.camera.focal_source)},
-      {"table_frame", options.frame == TableFrame::eye ? "eye" : "view"},
-  };
+CaptureTable make_table(const RectifiedStack& stack, const SurfaceMask& mask, double first_angle,
+                        const TableOptions& options) {
+  CaptureTable made;
+  made.symmetry = symmetry_of(stack, mask, first_angle, options.symmetry_threshold);
+  const int symmetry = options.symmetry.value_or(made.symmetry.symmetry);
+  AssembledSlices slices = assemble(stack, mask, first_angle, options.slices, symmetry);
+  made.amc = amc::AmcTable(options.size, options.slices, symmetry);
+  made.amc.encoding = options.encoding;
+  made.amc.isotropic = !options.symmetry && made.symmetry.isotropic;
+  parallel_for(options.slices,
+               [&](int i) { amc::set_slice_image(made.amc, i, slices.slices[static_cast<std::size_t>(i)]); });
+  amc::quantise(made.amc);
+  made.seen_share = slices.seen_share;
+  made.seen = std::move(slices.seen);
+  return made;
 }
 
 }  // namespace sateen::capture

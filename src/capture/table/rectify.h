@@ -23,8 +23,8 @@ class RectifyMap {
 
   int size() const { return size_; }
   TableFrame frame() const { return frame_; }
-  /// The texel's surface point for the mean sphere; `visible` is false where no frame shows it.
-  const SeenPoint& point(int x, int y) const { return points_[pixel_index(x, y, size_)]; }
+  /// Each texel's surface point for the mean sphere; `visible` is false where no frame shows it.
+  const std::vector<SeenPoint>& points() const { return points_; }
   /// The rectangle, inside a picture of the size given, of all pixels that rectify() looks at in frames whose
   /// spheres are at `centres` (pixels, at least one).
   PixelRect region(std::span<const Vec2> centres, int width, int height) const;

@@ -11,6 +11,7 @@
 
 #include <opencv2/imgproc.hpp>
 
+#include "sateen/capture/table/stack.h"
 #include "sateen/core/direction.h"
 #include "sateen/core/parallel.h"
 

@@ -4,10 +4,12 @@
 #include <cstdint>
 #include <vector>
 
-#include "sateen/capture/table/stack.h"
+#include "sateen/capture/sphere/sphere_view.h"
 #include "sateen/core/image.h"
 
 namespace sateen::capture {
+
+struct RectifiedStack;
 
 /// Seams, folds and cuts: the part of the turning body that shows no clean material. A size x size picture
 /// (row 0 on top) of the body at angle 0 along the axis: pixel (x, y) is the body_point disc_of_pixel(x, y,

@@ -3,11 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "sateen/capture/turning/angles.h"
-#include "sateen/capture/turning/used_frames.h"
+#include "sateen/capture/turning/turning.h"
 #include "sateen/core/direction.h"
 #include "sateen/core/error.h"
 #include "sateen/core/median.h"
@@ -16,21 +17,18 @@ namespace sateen::capture {
 namespace {
 
 constexpr double kRegistrationNoise = radians(0.25);
-constexpr double kDoubtful = radians(0.6);  // above it is no registration noise
-constexpr double kWrong = radians(10);      // above it known angles are not those of the pictures
-constexpr const char* kNoAngle = "its angle cannot be found";
 
 /// The angles that need not be found, one for each of `indices`; empty when the pictures have to tell. Those
 /// given are of all frames there are, of which every `stride`-th is used.
 std::vector<double> known_angles(const std::vector<std::size_t>& indices, std::size_t frames,
-                                 std::size_t stride, const CaptureOptions& options) {
+                                 std::size_t stride, const TurnOptions& options) {
   std::vector<double> known;
-  if (options.angle_source == AngleSource::equal) {
+  if (options.source == AngleSource::equal) {
     const double turn = (options.clockwise ? -1 : 1) * 2 * kPi;
     for (const std::size_t i : indices)
       known.push_back(turn * static_cast<double>(i) / static_cast<double>(frames));
   }
-  if (options.angle_source == AngleSource::given) {
+  if (options.source == AngleSource::given) {
     const std::size_t given = options.angles.size();
     if ((given + stride - 1) / stride != frames) {
       throw Error(fmt::format("{} angles are given for {} frames", given,
@@ -51,123 +49,106 @@ void check_registration(const Turning& turning) {
       "--angles FILE");
 }
 
-void drop_unregistered(const Turning& turning, const std::vector<std::size_t>& indices,
-                       std::vector<CaptureFrame>& frames) {
+/// Those of `dropped` and the frames, of which `indices` were registered, that turned out blurred or without
+/// an angle.
+std::vector<Dropped> without_unregistered(std::vector<Dropped> dropped, const Turning& turning,
+                                          const std::vector<std::size_t>& indices) {
   for (std::size_t k = 0; k < indices.size(); ++k) {
-    CaptureFrame& frame = frames[indices[k]];
     // Against the surface all frames share, blur shows even where noise hides it; the light changes this
     // slowly.
     const auto here = turning.strength.begin() + static_cast<std::ptrdiff_t>(k);
     const auto before = here - static_cast<std::ptrdiff_t>(std::min<std::size_t>(k, 4));
     const auto after = here + static_cast<std::ptrdiff_t>(std::min<std::size_t>(indices.size() - k, 5));
-    if (turning.strength[k] < 0.55 * median(std::vector<double>(before, after))) frame.dropped = "blurred";
-    if (turning.confidence[k] < turning.confidence_floor) frame.dropped = kNoAngle;
+    if (turning.strength[k] < 0.55 * median(std::vector<double>(before, after)))
+      dropped[indices[k]] = Dropped::blurred;
+    if (turning.confidence[k] < turning.confidence_floor) dropped[indices[k]] = Dropped::no_angle;
   }
+  return dropped;
 }
 
-bool recognise_equal_steps(std::vector<CaptureFrame>& frames) {
+/// Where the used frames turn in equal steps all frames do: the angles are made so, and none is unknown.
+void recognise_equal_steps(FrameAngles& found) {
   std::vector<int> places;
   std::vector<double> angles;
-  for (const std::size_t i : used_frames(frames)) {
+  for (const std::size_t i : used_frames(found.dropped)) {
     places.push_back(static_cast<int>(i));
-    angles.push_back(frames[i].turned);
+    angles.push_back(found.turned[i]);
   }
-  const EqualSteps steps = equal_steps(places, angles, static_cast<int>(frames.size()), kRegistrationNoise);
-  if (!steps.found) return false;
-  for (std::size_t i = 0; i < frames.size(); ++i) {
-    frames[i].turned = steps.first + steps.step * static_cast<double>(i);
-    if (frames[i].dropped == kNoAngle) frames[i].dropped.clear();
+  const EqualSteps steps =
+      equal_steps(places, angles, static_cast<int>(found.turned.size()), kRegistrationNoise);
+  found.turn.equal_steps = steps.found;
+  if (!steps.found) return;
+  for (std::size_t i = 0; i < found.turned.size(); ++i) {
+    found.turned[i] = steps.first + steps.step * static_cast<double>(i);
+    if (found.dropped[i] == Dropped::no_angle) found.dropped[i] = Dropped::no;
   }
-  return true;
 }
 
-}  // namespace
-
-FrameAngles find_frame_angles(std::vector<FrameNotes>& notes, const Mat3& axes, const CaptureOptions& options,
-                              int stride, std::vector<CaptureFrame>& frames) {
-  const std::vector<std::size_t> indices = used_frames(frames);
-  if (indices.size() < static_cast<std::size_t>(kFewestCaptureFrames)) {
-    throw Error(
-        fmt::format("only {} of {} frames are sharp enough to be used", indices.size(), frames.size()));
-  }
-  std::vector<SurfacePatch> patches;
-  for (const std::size_t i : indices) patches.push_back(std::move(notes[i].patch));
-  const std::vector<double> known =
-      known_angles(indices, frames.size(), static_cast<std::size_t>(stride), options);
-  const Turning turning =
-      known.empty() ? find_turning(patches, axes) : find_axis(patches, axes, known, false);
-  if (known.empty()) check_registration(turning);
-  for (std::size_t k = 0; k < indices.size(); ++k) {
-    frames[indices[k]].turned = turning.angles[k];
-    frames[indices[k]].confidence = turning.confidence[k];
-  }
-  FrameAngles found;
-  found.axis = turning.axis;
-  found.contradiction = turning.contradiction;
-  found.known_off = turning.known_off;
-  found.reversed_off = turning.reversed_off;
-  if (known.empty()) {
-    drop_unregistered(turning, indices, frames);
-    found.equal_steps = recognise_equal_steps(frames);
-  } else {
-    found.equal_steps = options.angle_source == AngleSource::equal;
-  }
-  drop_duplicates(frames);
-  // Angles count from the first frame that is used.
-  const std::vector<std::size_t> used = used_frames(frames);
-  const double first = frames[used.front()].turned;
-  for (CaptureFrame& frame : frames) frame.turned = wrap(frame.turned - first, 2 * kPi);
+/// Angles count from the first frame that is used.
+void count_from_first(FrameAngles& found) {
+  const std::vector<std::size_t> used = used_frames(found.dropped);
+  const double first = found.turned[used.front()];
+  for (double& turned : found.turned) turned = wrap(turned - first, 2 * kPi);
   std::vector<double> turned;
-  for (const std::size_t i : used) turned.push_back(frames[i].turned);
-  found.turned = unwrapped(turned).back();
-  return found;
+  for (const std::size_t i : used) turned.push_back(found.turned[i]);
+  found.turn.turned = unwrapped(turned).back();
 }
 
-void check_turn(const std::vector<CaptureFrame>& frames, const FrameAngles& turn,
-                const CaptureOptions& options, std::vector<std::string>& warnings) {
+/// Throws Error unless the used frames go all the way round.
+void measure_gaps(FrameAngles& found, double period) {
   std::vector<double> angles;
-  for (const std::size_t i : used_frames(frames)) angles.push_back(frames[i].turned);
+  for (const std::size_t i : used_frames(found.dropped)) angles.push_back(found.turned[i]);
   if (angles.size() < static_cast<std::size_t>(kFewestCaptureFrames)) {
     throw Error(fmt::format(
         "only {} of {} frames can be used; the others are blurred, repeated or not to be registered",
-        angles.size(), frames.size()));
+        angles.size(), found.turned.size()));
   }
-  const double period = 2 * kPi / options.symmetry.value_or(1);
-  const Coverage found = coverage(angles, period);
+  const Coverage gaps = coverage(angles, period);
   const double even = period / static_cast<double>(angles.size());
-  if (found.widest > std::max(radians(25), 3.5 * even)) {
+  if (gaps.widest > std::max(radians(25), 3.5 * even)) {
     throw Error(fmt::format(
         "the turn is not complete: the frames cover {:.0f} of {:.0f} degrees and leave a gap of {:.0f}. "
         "Turn the sphere all the way round; if it did, its surface shows too little detail to follow: say "
         "how it turned with --angles",
-        degrees(period - found.widest + found.median), degrees(period), degrees(found.widest)));
+        degrees(period - gaps.widest + gaps.median), degrees(period), degrees(gaps.widest)));
   }
-  if (found.widest > std::max(radians(10), 2.5 * even)) {
-    warnings.push_back(fmt::format(
-        "between two frames the sphere turned by {:.0f} degrees: the material is interpolated there. Turn "
-        "it more evenly",
-        degrees(found.widest)));
+  found.turn.widest_gap = gaps.widest;
+  found.turn.even_gap = even;
+}
+
+}  // namespace
+
+FrameAngles find_frame_angles(std::span<const SurfacePatch> patches, std::vector<Dropped> dropped,
+                              const Mat3& axes, const TurnOptions& options, int stride, double period) {
+  const std::size_t frames = dropped.size();
+  const std::vector<std::size_t> indices = used_frames(dropped);
+  if (indices.size() < static_cast<std::size_t>(kFewestCaptureFrames))
+    throw Error(fmt::format("only {} of {} frames are sharp enough to be used", indices.size(), frames));
+  const std::vector<double> known = known_angles(indices, frames, static_cast<std::size_t>(stride), options);
+  const Turning turning = known.empty() ? find_turning(patches, axes) : find_axis(patches, axes, known);
+  if (known.empty()) check_registration(turning);
+  FrameAngles found;
+  found.turn.axis = turning.axis;
+  found.turn.contradiction = turning.contradiction;
+  found.turn.known_off = turning.known_off;
+  found.turn.reversed_off = turning.reversed_off;
+  found.turned.assign(frames, 0);
+  found.confidence.assign(frames, 0);
+  for (std::size_t k = 0; k < indices.size(); ++k) {
+    found.turned[indices[k]] = turning.angles[k];
+    found.confidence[indices[k]] = turning.confidence[k];
   }
-  if (turn.known_off > kWrong) {
-    const bool reversed = turn.reversed_off < kWrong;
-    warnings.push_back(
-        reversed
-            ? std::string(
-                  "in the pictures the sphere turns the other way than the angles given: the table is "
-                  "wrong. Swap --direction (of a live capture: --reverse), or find the angles with "
-                  "--angles pictures")
-            : fmt::format("the angles given are not those of the pictures, which differ from them by {:.0f} "
-                          "degrees (median): the table is wrong. Check --angles, or find them with --angles "
-                          "pictures",
-                          degrees(turn.known_off)));
-  } else if (turn.contradiction > kDoubtful) {
-    warnings.push_back(fmt::format(
-        "the frames' angles are doubtful: parts of the sphere contradict them by {:.1f} degrees. The axis "
-        "may "
-        "be tilted too far, the surface may move on the sphere or show too little detail. Point the axis at "
-        "the lens, or give the stage's angles (--angles)",
-        degrees(turn.contradiction)));
+  found.dropped = std::move(dropped);
+  if (known.empty()) {
+    found.dropped = without_unregistered(std::move(found.dropped), turning, indices);
+    recognise_equal_steps(found);
+  } else {
+    found.turn.equal_steps = options.source == AngleSource::equal;
   }
+  found.dropped = without_repeated(std::move(found.dropped), found.turned);
+  count_from_first(found);
+  measure_gaps(found, period);
+  return found;
 }
 
 }  // namespace sateen::capture

@@ -1,33 +1,28 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <string>
+#include <span>
 #include <vector>
 
-#include "sateen/capture/measure.h"
+#include "sateen/capture/turning/dropped.h"
+#include "sateen/capture/turning/surface_patch.h"
+#include "sateen/capture/turning/turn.h"
 
 namespace sateen::capture {
 
-/// How the sphere turned over all frames.
+/// The turn as a whole and frame by frame.
 struct FrameAngles {
-  Vec3 axis{0, 0, 1};        ///< view space, unit, towards the camera
-  bool equal_steps = false;  ///< given, or recognised and then used exactly
-  double turned = 0;         ///< radians from the first to the last used frame
-  double contradiction = 0;  ///< Turning::contradiction
-  double known_off = 0;      ///< Turning::known_off
-  double reversed_off = 0;   ///< Turning::reversed_off
+  Turn turn;
+  std::vector<double> turned;      ///< per frame: radians in [0, 2 pi), 0 for the first used one
+  std::vector<double> confidence;  ///< per frame: of the registration; 0 without one
+  std::vector<Dropped> dropped;    ///< per frame: also what turned out blurred, repeated or without an angle
 };
 
-/// Sets every frame's `turned` (0 for the first used frame) and `confidence`, and drops frames that turn out
-/// blurred, repeated or not to be registered. Uses up the notes' patches. `axes` as in PatchMap;
-/// `stride` as in FrameSource. Throws Error when too few frames are left, the surface shows too little to be
-/// followed, or other than one angle a frame is given.
-FrameAngles find_frame_angles(std::vector<FrameNotes>& notes, const Mat3& axes, const CaptureOptions& options,
-                              int stride, std::vector<CaptureFrame>& frames);
-
-/// Throws Error unless the used frames go all the way round; warns of wide gaps and of angles that contradict
-/// each other.
-void check_turn(const std::vector<CaptureFrame>& frames, const FrameAngles& turn,
-                const CaptureOptions& options, std::vector<std::string>& warnings);
+/// `patches` are of the frames that are used according to `dropped`, `axes` as in PatchMap, `stride` as in
+/// FrameSource, `period` the radians after which the table repeats. Throws Error when too few frames are
+/// left, the surface shows too little to be followed, other than one angle a frame is given, or the used
+/// frames do not go all the way round.
+FrameAngles find_frame_angles(std::span<const SurfacePatch> patches, std::vector<Dropped> dropped,
+                              const Mat3& axes, const TurnOptions& options, int stride, double period);
 
 }  // namespace sateen::capture

@@ -5,47 +5,51 @@
 
 #include <fmt/format.h>
 
-#include "sateen/capture/turning/used_frames.h"
+#include "sateen/capture/sphere/first_look.h"
+#include "sateen/capture/turning/frame_angles.h"
 #include "sateen/capture/turning/wobble.h"
 
 namespace sateen::capture {
 
-Rig find_rig(const std::vector<FrameNotes>& notes, const FirstLook& look, const Camera& camera,
-             std::vector<CaptureFrame>& frames, std::vector<std::string>& warnings) {
-  const double factor = look.factor;
+FrameCentres find_mounting(const std::vector<SeenOutline>& seen, const FirstLook& look,
+                           const FrameAngles& angles) {
+  FrameCentres found;
+  Mounting& mounting = found.mounting;
   std::vector<Vec2> centres;
-  std::vector<double> angles;
-  Rig rig;
-  const std::vector<std::size_t> indices = used_frames(frames);
-  for (const std::size_t i : indices) {
-    centres.push_back(notes[i].centre * factor);
-    angles.push_back(frames[i].turned);
-    rig.outline_support += notes[i].support / static_cast<double>(indices.size());
+  std::vector<double> turned;
+  const std::vector<std::size_t> used = used_frames(angles.dropped);
+  for (const std::size_t i : used) {
+    centres.push_back(seen[i].centre);
+    turned.push_back(angles.turned[i]);
+    mounting.outline_support += seen[i].support / static_cast<double>(used.size());
   }
-  const Wobble wobble = fit_wobble(centres, angles);
-  rig.wobble = std::sqrt((wobble.cosine.squaredNorm() + wobble.sine.squaredNorm()) / 2);
-  rig.wobble_rms = wobble.rms;
-  const double radius = look.outline.radius * factor;
-  const bool circular = wobble.rms < 0.4 * factor;
-  for (std::size_t i = 0; i < frames.size(); ++i) {
-    frames[i].radius = radius;
-    frames[i].centre =
-        circular && frames[i].dropped.empty() ? wobble.at(frames[i].turned) : Vec2(notes[i].centre * factor);
-  }
-  rig.sphere = sphere_at(camera, wobble.middle, radius);
-  if (!circular) {
+  const Wobble wobble = fit_wobble(centres, turned);
+  mounting.wobble = std::sqrt((wobble.cosine.squaredNorm() + wobble.sine.squaredNorm()) / 2);
+  mounting.wobble_rms = wobble.rms;
+  mounting.strays = wobble.rms >= 0.4 * look.factor;
+  mounting.radius = look.outline.radius * look.factor;
+  mounting.sphere = sphere_at(look.lens.camera, wobble.middle, mounting.radius);
+  for (const SeenOutline& outline : seen) found.centres.push_back(outline.centre);
+  if (mounting.strays) return found;
+  for (const std::size_t i : used) found.centres[i] = wobble.at(angles.turned[i]);
+  return found;
+}
+
+std::vector<std::string> advice(const Mounting& mounting) {
+  std::vector<std::string> warnings;
+  if (mounting.strays) {
     warnings.push_back(
         fmt::format("the sphere does not turn about a fixed axis (its picture strays by {:.1f} pixels from a "
                     "circle): the stand may have been touched. Each frame was measured alone",
-                    wobble.rms));
+                    mounting.wobble_rms));
   }
-  if (rig.outline_support < 0.5) {
+  if (mounting.outline_support < 0.5) {
     warnings.push_back(
         fmt::format("only {:.0f} % of the outline stands out against the background: put something plain "
                     "behind the sphere",
-                    100 * rig.outline_support));
+                    100 * mounting.outline_support));
   }
-  return rig;
+  return warnings;
 }
 
 }  // namespace sateen::capture

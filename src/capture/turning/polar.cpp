@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sateen/capture/turning/turning.h"
+#include "sateen/capture/turning/surface_patch.h"
 #include "sateen/core/direction.h"
 #include "sateen/core/median.h"
 #include "sateen/core/parallel.h"

@@ -225,15 +225,11 @@ void TurningRefinement::round(bool refine_angles, bool quick, Turning& turning) 
   }
   const Vec4 solution = normal_matrix.ldlt().solve(right);
   const Vec3 tilt = solution[0] * e1 + solution[1] * e2;
-  double squares = 0;
-  const double first = rotation[0].dot(axis);
-  for (std::size_t f = 0; f < n; ++f) {
-    const double change = rotation[f].dot(axis) - first;
-    if (refine_angles) angles[f] += change;
-    squares += change * change;
+  if (refine_angles) {
+    const double first = rotation[0].dot(axis);
+    for (std::size_t f = 0; f < n; ++f) angles[f] += rotation[f].dot(axis) - first;
   }
   axis = (axis + tilt).normalized();
-  turning.step_error = std::sqrt(squares / static_cast<double>(n));
 }
 
 }  // namespace sateen::capture

@@ -2,7 +2,6 @@
 #include "sateen/capture/turning/surface_patch.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <utility>
 
@@ -12,14 +11,6 @@
 
 namespace sateen::capture {
 namespace {
-
-/// The light of every code.
-constexpr std::array<float, 256> kLight = [] {
-  std::array<float, 256> light{};
-  for (std::size_t code = 0; code < light.size(); ++code)
-    light[code] = static_cast<float>(code * code) / (255.0f * 255.0f);
-  return light;
-}();
 
 /// Bilinear light, clamped to the edge.
 float light_at(const GreyPicture& picture, const Vec2f& pixel) {
@@ -31,8 +22,9 @@ float light_at(const GreyPicture& picture, const Vec2f& pixel) {
   const float fy = y - static_cast<float>(y0);
   const std::uint8_t* p = &picture.codes[pixel_index(x0, y0, picture.width)];
   const std::uint8_t* q = p + picture.width;
-  const float top = kLight[p[0]] + fx * (kLight[p[1]] - kLight[p[0]]);
-  const float bottom = kLight[q[0]] + fx * (kLight[q[1]] - kLight[q[0]]);
+  const auto& light = kLightOfCode<float>;
+  const float top = light[p[0]] + fx * (light[p[1]] - light[p[0]]);
+  const float bottom = light[q[0]] + fx * (light[q[1]] - light[q[0]]);
   return top + fy * (bottom - top);
 }
 

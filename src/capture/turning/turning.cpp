@@ -177,8 +177,7 @@ Turning find_turning(std::span<const SurfacePatch> patches, const Mat3& axes) {
   return turning;
 }
 
-Turning find_axis(std::span<const SurfacePatch> patches, const Mat3& axes, std::span<const double> angles,
-                  bool refine_angles) {
+Turning find_axis(std::span<const SurfacePatch> patches, const Mat3& axes, std::span<const double> angles) {
   const std::vector<cv::Mat> images = moving_detail(patches);
   const TurningRefinement refinement(images);
   const std::vector<double> known(angles.begin(), angles.end());
@@ -186,7 +185,7 @@ Turning find_axis(std::span<const SurfacePatch> patches, const Mat3& axes, std::
     Turning turning;
     turning.axis = axis;
     turning.angles = known;
-    for (const bool quick : kRounds) refinement.round(refine_angles, quick, turning);
+    for (const bool quick : kRounds) refinement.round(false, quick, turning);
     return turning;
   };
   Turning turning = from(Vec3::UnitZ());

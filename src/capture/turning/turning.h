@@ -16,7 +16,6 @@ struct Turning {
   std::vector<double>
       strength;  ///< per patch: how much of the common surface's detail it shows; blurred ones less
   double confidence_floor = 0;  ///< correlation that chance alone reaches
-  double step_error = 0;        ///< radians, rms of the last refinement
   double contradiction = 0;     ///< radians: PolarPictures::contradiction
   /// Of angles that were known: the median difference to what registration finds by itself, radians, as they
   /// are and with their direction reversed. 0 where the surface shows too little to tell.
@@ -30,9 +29,7 @@ struct Turning {
 /// share. `axes` as in PatchMap.
 Turning find_turning(std::span<const SurfacePatch> patches, const Mat3& axes);
 
-/// The axis alone, when the angles (radians) are known from the stage; corrects each by what the pictures say
-/// if `refine_angles`.
-Turning find_axis(std::span<const SurfacePatch> patches, const Mat3& axes, std::span<const double> angles,
-                  bool refine_angles);
+/// The axis alone, when the angles (radians) are known from the stage.
+Turning find_axis(std::span<const SurfacePatch> patches, const Mat3& axes, std::span<const double> angles);
 
 }  // namespace sateen::capture

@@ -41,7 +41,7 @@ Simulation mid_sized() {
   return s;
 }
 
-TEST(CaptureRig, AnAxisTiltedByFiveDegreesIsFound) {
+TEST(CaptureTurning, AnAxisTiltedByFiveDegreesIsFound) {
   Simulation s = mid_sized();
   s.tilt = {3, -4};
   s.unevenness = 0.6;
@@ -53,28 +53,29 @@ TEST(CaptureRig, AnAxisTiltedByFiveDegreesIsFound) {
   EXPECT_THAT(result.warnings, Not(Contains(HasSubstr("doubtful"))));
 }
 
-TEST(CaptureRig, AnglesThatThePicturesContradictAreDoubted) {
+TEST(CaptureTurning, AnglesThatThePicturesContradictAreDoubted) {
   Simulation s = mid_sized();
   CaptureOptions options = informed_options(s);
-  options.angle_source = AngleSource::given;
-  for (int i = 0; i < s.frames; ++i) options.angles.push_back(s.angle(i) + radians(6) * std::sin(s.angle(i)));
+  options.turn.source = AngleSource::given;
+  for (int i = 0; i < s.frames; ++i)
+    options.turn.angles.push_back(s.angle(i) + radians(6) * std::sin(s.angle(i)));
   EXPECT_THAT(capture_of(s, options).warnings, Contains(HasSubstr("doubtful")));
 }
 
-TEST(CaptureRig, AnglesOfAnotherDirectionOrTurnAreTold) {
+TEST(CaptureTurning, AnglesOfAnotherDirectionOrTurnAreTold) {
   Simulation s = mid_sized();
   s.tilt = {4, 0};
   CaptureOptions options = informed_options(s);
-  options.angle_source = AngleSource::equal;
+  options.turn.source = AngleSource::equal;
   EXPECT_THAT(capture_of(s, options).warnings, Not(Contains(HasSubstr("the table is wrong"))));
-  options.clockwise = true;
+  options.turn.clockwise = true;
   EXPECT_THAT(capture_of(s, options).warnings, Contains(HasSubstr("turns the other way")));
-  options.angle_source = AngleSource::given;
-  for (int i = 0; i < s.frames; ++i) options.angles.push_back(2 * s.angle(i));
+  options.turn.source = AngleSource::given;
+  for (int i = 0; i < s.frames; ++i) options.turn.angles.push_back(2 * s.angle(i));
   EXPECT_THAT(capture_of(s, options).warnings, Contains(HasSubstr("not those of the pictures")));
 }
 
-TEST(CaptureRig, HeavyNoiseIsAveragedOut) {
+TEST(CaptureTurning, HeavyNoiseIsAveragedOut) {
   Simulation s = mid_sized();
   s.noise = 5;
   s.unevenness = 0.5;
@@ -86,38 +87,36 @@ TEST(CaptureRig, HeavyNoiseIsAveragedOut) {
   EXPECT_LT(errors.angle, 0.2);
 }
 
-TEST(CaptureRig, BlackFramesAreLeftOutWithAWarning) {
+TEST(CaptureTurning, BlackFramesAreLeftOutWithAWarning) {
   Simulation s = mid_sized();
   s.black = {0, 14, 15};
   CaptureOptions options = informed_options(s);
-  options.zero = ZeroAngle::thread;
-  options.zero_frame = 1;
-  options.zero_angle += s.angle(1);
+  options.tangent.from = ZeroAngle::thread;
+  options.tangent.frame = 1;
+  options.tangent.angle += s.angle(1);
   const CaptureResult result = capture_of(s, options);
-  for (const int i : s.black)
-    EXPECT_EQ(result.frames[static_cast<std::size_t>(i)].dropped, "much darker than the others");
-  EXPECT_EQ(std::ranges::count_if(result.frames, [](const CaptureFrame& f) { return f.dropped.empty(); }),
-            37);
+  for (const int i : s.black) EXPECT_EQ(result.frames[static_cast<std::size_t>(i)].dropped, Dropped::dark);
+  EXPECT_EQ(std::ranges::count_if(result.frames, &CaptureFrame::used), 37);
   EXPECT_THAT(result.warnings, Contains(AllOf(HasSubstr("left out"), HasSubstr("frame_014.png"))));
   EXPECT_GT(judge(result, s).table, 36);
 }
 
-TEST(CaptureRig, WhatTheSeamHidesIsMeasuredHalfATurnOn) {
+TEST(CaptureTurning, WhatTheSeamHidesIsMeasuredHalfATurnOn) {
   Simulation s = mid_sized();
   s.seam = true;
   const test::TemporaryFolder folder;
   s.write(folder.path());
   CaptureOptions options = informed_options(s);
-  options.symmetry = 1;
+  options.table.symmetry = 1;
   const CaptureResult without = build_capture({folder.path()}, options);
-  options.symmetry = 2;
+  options.table.symmetry = 2;
   const CaptureResult with = build_capture({folder.path()}, options);
-  EXPECT_GT(with.seen_share, without.seen_share + 0.01);
+  EXPECT_GT(with.table.seen_share, without.table.seen_share + 0.01);
   // All texels, however they came to be known.
-  EXPECT_GT(test::table_psnr(with.table, s, {}), test::table_psnr(without.table, s, {}) + 1);
+  EXPECT_GT(test::table_psnr(with.table.amc, s, {}), test::table_psnr(without.table.amc, s, {}) + 1);
 }
 
-TEST(CaptureRig, PortraitGreyAndNear) {
+TEST(CaptureTurning, PortraitGreyAndNear) {
   Simulation s = mid_sized();
   std::swap(s.width, s.height);
   s.centre = {141, 250};
@@ -126,14 +125,14 @@ TEST(CaptureRig, PortraitGreyAndNear) {
   s.clockwise = true;
   const CaptureResult result = capture_of(s, informed_options(s));
   const CaptureErrors errors = judge(result, s);
-  EXPECT_LT(result.turned, 0);
+  EXPECT_LT(result.turn.turned, 0);
   EXPECT_LT(errors.centre, 0.3);
   EXPECT_LT(errors.radius, 0.3);
   EXPECT_LT(errors.angle, 0.2);
   EXPECT_GT(errors.table, 36);
 }
 
-TEST(CaptureRig, ADamagedPhotographIsNamed) {
+TEST(CaptureTurning, ADamagedPhotographIsNamed) {
   Simulation s = mid_sized();
   s.frames = 14;
   const test::TemporaryFolder folder;

@@ -1,14 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "sateen/capture/measure.h"
+#include "sateen/capture/sphere/first_look.h"
 
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <numeric>
 
-#include <tbb/enumerable_thread_specific.h>
-
-#include "sateen/capture/sphere/choose_camera.h"
 #include "sateen/core/error.h"
 #include "sateen/core/median.h"
 
@@ -16,7 +12,6 @@ namespace sateen::capture {
 namespace {
 
 constexpr int kScouts = 24;
-constexpr int kLargestPatch = 192;
 
 /// Standard deviation of every 7th pixel's code.
 double contrast(const GreyPicture& picture) {
@@ -76,10 +71,11 @@ FocalEstimate find_focal(std::span<const GreyPicture> greys, const Scouting& sco
 
 }  // namespace
 
-FirstLook first_look(FrameSource& source, const Camera& camera, const Progress& progress) {
+FirstLook first_look(FrameSource& source, const Lens& lens, const Progress& progress) {
   FirstLook look;
   look.factor = grey_factor(source.width(), source.height());
-  look.camera = camera.scaled(1.0 / look.factor);
+  look.lens = lens;
+  look.camera = lens.camera.scaled(1.0 / look.factor);
   std::vector<int> indices;
   const int scouts = std::min(kScouts, source.count());
   indices.reserve(static_cast<std::size_t>(scouts));
@@ -96,74 +92,18 @@ FirstLook first_look(FrameSource& source, const Camera& camera, const Progress& 
   std::erase_if(greys, [](const GreyPicture& grey) { return grey.codes.empty(); });
   leave_out_blank(greys);
   look.scouting = find_sphere(greys, look.factor);
-  if (camera.focal_source == kAssumedFocal) look.focal = find_focal(greys, look.scouting, look.camera);
+  if (lens.source == FocalSource::assumed) {
+    look.lens.estimate = find_focal(greys, look.scouting, look.camera).scaled(look.factor);
+    look.lens.camera.focal = Vec2::Constant(look.lens.estimate->focal);
+    if (look.lens.estimate->informed) look.lens.source = FocalSource::outline;
+  }
   look.outline = fit_outlines(greys, look.scouting, look.camera);
   for (const Vec2& c : look.outline.centres)
     look.centre += c / static_cast<double>(look.outline.centres.size());
   for (const Vec2& c : look.outline.centres) look.reach = std::max(look.reach, (c - look.centre).norm());
   look.scouting.centre = look.centre;
   look.scouting.radius = look.outline.radius;
-  look.still = still_points(look.scouting, greys[0].width, greys[0].height, look.factor,
-                            look.reach + 6 + 0.05 * look.outline.radius);
-  for (const Eigen::Vector2i& p : look.still.pixels) {
-    const int x = p.x() / look.factor;
-    const int y = p.y() / look.factor;
-    const double code = static_cast<double>(
-        look.scouting.mean[static_cast<std::size_t>(y) * static_cast<std::size_t>(greys[0].width) +
-                           static_cast<std::size_t>(x)]);
-    look.still_grey.push_back(code * code / (255.0 * 255.0));
-  }
   return look;
-}
-
-namespace {
-
-/// Gain of a frame's grey codes from its still points: the median ratio, as a square root like the codes.
-double code_gain(const FirstLook& look, const std::vector<Vec3f>& samples) {
-  std::vector<double> ratios;
-  for (std::size_t i = 0; i < samples.size(); ++i) {
-    if (samples[i][0] < 0 || look.still_grey[i] <= 0) continue;
-    const double grey = 0.25 * static_cast<double>(samples[i][0] + 2 * samples[i][1] + samples[i][2]);
-    ratios.push_back(grey / look.still_grey[i]);
-  }
-  if (ratios.size() < 50) return 1;
-  return std::sqrt(std::max(1e-3, middle_of(ratios)));
-}
-
-}  // namespace
-
-std::vector<FrameNotes> measure_frames(FrameSource& source, const FirstLook& look, const StillMask& still,
-                                       const Mat3& axes, const Progress& progress) {
-  const double radius = look.outline.radius;
-  const int patch_size = std::clamp(static_cast<int>(2 * radius * kPatchReach) / 2 * 2, 48, kLargestPatch);
-  const double margin = radius * 1.05 + look.reach + 12;
-  const GreyRegion region{
-      static_cast<int>(look.centre.x() - margin), static_cast<int>(look.centre.y() - margin),
-      static_cast<int>(look.centre.x() + margin) + 1, static_cast<int>(look.centre.y() + margin) + 1};
-  const PatchMap patches(look.camera, sphere_at(look.camera, look.centre, radius), axes, patch_size, still);
-  std::vector<FrameNotes> notes(static_cast<std::size_t>(source.count()));
-  std::vector<int> indices(notes.size());
-  std::iota(indices.begin(), indices.end(), 0);
-  std::atomic<int> done = 0;
-  tbb::enumerable_thread_specific<GreyPicture> greys;
-  source.visit(indices, [&](int index, const Photograph& frame) {
-    FrameNotes& note = notes[static_cast<std::size_t>(index)];
-    GreyPicture& grey = greys.local();
-    grey_picture(frame, look.factor, region, grey);
-    note.still = sample_still_points(look.still, frame);
-    const double gain = code_gain(look, note.still);
-    note.centre = look.centre;
-    for (const double reach : {look.reach + 4, 3.0}) {
-      const OutlineOffset offset = measure_outline(grey, gain, look.outline.plate, look.camera,
-                                                   sphere_at(look.camera, note.centre, radius), reach, true);
-      note.support = offset.support;
-      if (offset.support > 0.25) note.centre += offset.shift;
-    }
-    note.patch = patches.patch(grey, note.centre);
-    note.read = true;
-    report(progress, static_cast<double>(++done) / static_cast<double>(indices.size()));
-  });
-  return notes;
 }
 
 }  // namespace sateen::capture

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "sateen/capture/sphere/standing_still.h"
+#include "sateen/capture/sphere/stand.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,14 +13,15 @@
 namespace sateen::capture {
 namespace {
 
-constexpr double kStandContrast = 8;  // codes
+constexpr double kStandContrast = 8;    // codes
+constexpr double kLargestStand = 0.25;  // share of the sphere's picture
 
 /// 1 where a pixel inside `radius` hardly changes: the mean square over it and its neighbours, as one pixel
 /// alone may be quiet or loud by chance. How loud noise is depends on how bright a pixel is as well.
 cv::Mat quiet_pixels(const FirstLook& look, double radius) {
   constexpr double kQuiet = 1.8;  // times the noise
-  const int width = look.camera.width;
-  const int height = look.camera.height;
+  const int width = look.scouting.width;
+  const int height = look.scouting.height;
   const cv::Mat activity(height, width, CV_32F, const_cast<float*>(look.scouting.activity.data()));
   cv::Mat squares;
   cv::sqrBoxFilter(activity, squares, CV_32F, {3, 3});
@@ -59,7 +60,7 @@ std::vector<double> border_contrast(const FirstLook& look, const cv::Mat& labels
 
 }  // namespace
 
-StillMask find_stand(const FirstLook& look, std::vector<std::string>& warnings) {
+StandInFront find_stand(const FirstLook& look) {
   // Further out the wobbling outline passes.
   const double inner = look.outline.radius - look.reach - 2.5;
   const cv::Mat quiet = quiet_pixels(look, inner);
@@ -76,7 +77,6 @@ StillMask find_stand(const FirstLook& look, std::vector<std::string>& warnings) 
         reaches_in[static_cast<std::size_t>(label)] = 1;
     }
   }
-  StillMask stand;
   cv::Mat chosen = cv::Mat::zeros(quiet.size(), CV_8U);
   double area = 0;
   const double whole = kPi * look.outline.radius * look.outline.radius;
@@ -90,14 +90,9 @@ StillMask find_stand(const FirstLook& look, std::vector<std::string>& warnings) 
       ++area;
     }
   }
-  const double share = area / whole;
-  if (area == 0) return stand;
-  if (share > 0.25) {
-    warnings.push_back(fmt::format(
-        "{:.0f} % of the sphere hardly changes as it turns: it is plain there, very dark, or covered",
-        100 * share));
-    return stand;
-  }
+  StandInFront stand;
+  stand.share = area / whole;
+  if (area == 0 || stand.share > kLargestStand) return stand;
   // Its edge is blurred; and it goes on beyond the outline, where the background stands still as well.
   cv::dilate(chosen, chosen, cv::getStructuringElement(cv::MORPH_ELLIPSE, {7, 7}));
   const cv::Mat inside = chosen.clone();
@@ -111,17 +106,26 @@ StillMask find_stand(const FirstLook& look, std::vector<std::string>& warnings) 
         chosen.at<std::uint8_t>(y, x) = 1;
     }
   }
-  stand.width = chosen.cols;
-  stand.height = chosen.rows;
-  stand.factor = look.factor;
-  stand.still.assign(chosen.datastart, chosen.dataend);
-  if (share > 0.002) {
-    warnings.push_back(
+  stand.mask.width = chosen.cols;
+  stand.mask.height = chosen.rows;
+  stand.mask.factor = look.factor;
+  stand.mask.still.assign(chosen.datastart, chosen.dataend);
+  return stand;
+}
+
+std::vector<std::string> advice(const StandInFront& stand) {
+  if (stand.share > kLargestStand) {
+    return {fmt::format(
+        "{:.0f} % of the sphere hardly changes as it turns: it is plain there, very dark, or covered",
+        100 * stand.share)};
+  }
+  if (stand.share > 0.002) {
+    return {
         fmt::format("{:.1f} % of the sphere stands still, as behind a stand, and was filled from its "
                     "neighbours: keep the front clear",
-                    100 * share));
+                    100 * stand.share)};
   }
-  return stand;
+  return {};
 }
 
 }  // namespace sateen::capture
