@@ -20,8 +20,8 @@ void run(const CaptureBuildArguments& arguments) {
   take_stage_angles(arguments.capture, arguments.inputs, options);
   options.progress = progress_bar("capture");
   capture::CaptureResult result = capture::build_capture(arguments.inputs, options);
-  result.table.provenance["program"] = "sateen " SATEEN_VERSION;
-  amc::write_amc(arguments.output, result.table);
+  result.table.amc.provenance["program"] = "sateen " SATEEN_VERSION;
+  amc::write_amc(arguments.output, result.table.amc);
   report_capture(arguments.capture, arguments.output, result);
   if (arguments.json) print(capture::report_json(result));
 }

@@ -4,7 +4,7 @@
 
 #include "command.h"
 #include "commands.h"
-#include "sateen/capture/calibrate.h"
+#include "sateen/capture/sphere/calibrate.h"
 #include "sateen/io/file.h"
 #include "sateen/io/image.h"
 

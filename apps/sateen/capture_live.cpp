@@ -8,7 +8,7 @@
 #include "command.h"
 #include "commands.h"
 #include "sateen/amc/amc_file.h"
-#include "sateen/capture/live.h"
+#include "sateen/capture/rig/live.h"
 #include "sateen/core/error.h"
 
 namespace sateen::cli {
@@ -54,8 +54,8 @@ void run(const CaptureLiveArguments& arguments) {
   if (arguments.output.empty()) return;
   take_stage_angles(arguments.capture, {live.folder}, options);
   capture::CaptureResult result = capture::build_capture({live.folder}, options);
-  result.table.provenance["program"] = "sateen " SATEEN_VERSION;
-  amc::write_amc(arguments.output, result.table);
+  result.table.amc.provenance["program"] = "sateen " SATEEN_VERSION;
+  amc::write_amc(arguments.output, result.table.amc);
   report_capture(arguments.capture, arguments.output, result);
 }
 

@@ -6,8 +6,8 @@
 #include <fmt/format.h>
 
 #include "command.h"
-#include "sateen/capture/live.h"
 #include "sateen/capture/report.h"
+#include "sateen/capture/rig/live.h"
 #include "sateen/core/error.h"
 #include "sateen/io/file.h"
 #include "sateen/io/image.h"
@@ -64,20 +64,24 @@ std::optional<capture::Response> response_of(const std::string& name) {
 void add_capture_options(CLI::App& command, CaptureArguments& a) {
   capture::CaptureOptions& o = a.options;
   command.add_option("--report", a.report, "Folder for report.json and report.html");
-  command.add_option("--size", o.size, "Texels along each normal axis (S)")->check(CLI::Range(16, 1024));
-  command.add_option("--slices", o.slices, "Tangent angles in one period (S_k)")->check(CLI::Range(4, 2048));
+  command.add_option("--size", o.table.size, "Texels along each normal axis (S)")
+      ->check(CLI::Range(16, 1024));
+  command.add_option("--slices", o.table.slices, "Tangent angles in one period (S_k)")
+      ->check(CLI::Range(4, 2048));
   command
       .add_option("--symmetry", a.symmetry, "R: equivalent turns to average; auto takes the largest found")
       ->check(CLI::IsMember({"auto", "1", "2", "3", "4"}));
-  command.add_option("--threshold", o.symmetry_threshold, "PSNR in dB from which a turn counts as alike");
+  command.add_option("--threshold", o.table.symmetry_threshold,
+                     "PSNR in dB from which a turn counts as alike");
   command.add_option("--encoding", a.encoding, "Texels in the file")->check(CLI::IsMember({"srgb8", "half"}));
 
   const auto lens = "Lens";
   command
-      .add_option("--focal-mm", o.focal_mm, "Focal length in mm (otherwise EXIF); needs the sensor's width")
+      .add_option("--focal-mm", o.lens.focal_mm,
+                  "Focal length in mm (otherwise EXIF); needs the sensor's width")
       ->check(CLI::PositiveNumber)
       ->group(lens);
-  command.add_option("--sensor-mm", o.sensor_mm, "Width of the sensor in mm")
+  command.add_option("--sensor-mm", o.lens.sensor_mm, "Width of the sensor in mm")
       ->check(CLI::PositiveNumber)
       ->group(lens);
   command.add_option("--fov", a.fov, "Horizontal field of view in degrees")
@@ -142,17 +146,17 @@ void add_capture_options(CLI::App& command, CaptureArguments& a) {
                   "of numbers")
       ->group(light);
   command
-      .add_option("--mask", o.mask,
+      .add_option("--mask", o.seams.mask,
                   "Picture of one frame's size, white where the sphere shows no clean material")
       ->group(light);
-  command.add_option("--mask-frame", o.mask_frame, "The frame the mask was painted on, counted from 0")
+  command.add_option("--mask-frame", o.seams.mask_frame, "The frame the mask was painted on, counted from 0")
       ->group(light);
   command
-      .add_option("--mirror-ball", o.mirror_ball,
+      .add_option("--mirror-ball", o.mirror_ball.picture,
                   "Picture of a chrome ball on the same stand: writes the light around it beside the AMC, "
                   "NAME.light.exr")
       ->group(light);
-  command.add_option("--mirror-reflectance", o.mirror_reflectance, "Of the chrome ball")
+  command.add_option("--mirror-reflectance", o.mirror_ball.reflectance, "Of the chrome ball")
       ->check(CLI::Range(0.01, 1.0))
       ->group(light);
   command.add_flag("--keep-seams", a.keep_seams, "Do not look for seams")->group(light);
@@ -160,33 +164,33 @@ void add_capture_options(CLI::App& command, CaptureArguments& a) {
 
 capture::CaptureOptions capture_options(const CaptureArguments& a) {
   capture::CaptureOptions o = a.options;
-  if (a.symmetry != "auto") o.symmetry = std::stoi(a.symmetry);
-  o.encoding = a.encoding == "half" ? amc::AmcEncoding::half : amc::AmcEncoding::srgb8;
-  o.frame = a.perspective == "eye" ? capture::TableFrame::eye : capture::TableFrame::view;
-  o.fov = radians(a.fov);
-  o.find_blemishes = !a.keep_seams;
+  if (a.symmetry != "auto") o.table.symmetry = std::stoi(a.symmetry);
+  o.table.encoding = a.encoding == "half" ? amc::AmcEncoding::half : amc::AmcEncoding::srgb8;
+  o.table.frame = a.perspective == "eye" ? capture::TableFrame::eye : capture::TableFrame::view;
+  o.lens.fov = radians(a.fov);
+  o.seams.find_blemishes = !a.keep_seams;
   o.source.response = response_of(a.response);
-  if (!a.calibration.empty()) o.camera = capture::read_camera(a.calibration);
+  if (!a.calibration.empty()) o.lens.camera = capture::read_camera(a.calibration);
   if (a.angles == "equal") {
-    o.angle_source = capture::AngleSource::equal;
-    o.clockwise = a.direction == "cw";
+    o.turn.source = capture::AngleSource::equal;
+    o.turn.clockwise = a.direction == "cw";
   } else if (a.angles != "pictures" && a.angles != "auto") {
-    o.angle_source = capture::AngleSource::given;
-    for (const double angle : read_numbers(a.angles)) o.angles.push_back(radians(angle));
+    o.turn.source = capture::AngleSource::given;
+    for (const double angle : read_numbers(a.angles)) o.turn.angles.push_back(radians(angle));
   }
   if (a.first_angle_option->count() > 0) {
-    o.zero_given = true;
-    o.zero_angle = radians(a.first_angle);
+    o.tangent.given = true;
+    o.tangent.angle = radians(a.first_angle);
   } else if (a.thread_option->count() > 0) {
-    o.zero = capture::ZeroAngle::thread;
-    o.zero_angle = radians(a.thread_direction);
-    o.zero_frame = a.thread_frame;
+    o.tangent.from = capture::ZeroAngle::thread;
+    o.tangent.angle = radians(a.thread_direction);
+    o.tangent.frame = a.thread_frame;
   } else if (a.seam_option->count() > 0) {
-    o.zero = capture::ZeroAngle::seam;
-    o.zero_angle = radians(a.from_seam);
+    o.tangent.from = capture::ZeroAngle::seam;
+    o.tangent.angle = radians(a.from_seam);
   } else if (a.weave_option->count() > 0) {
-    o.zero = capture::ZeroAngle::weave;
-    o.zero_angle = radians(a.from_weave);
+    o.tangent.from = capture::ZeroAngle::weave;
+    o.tangent.angle = radians(a.from_weave);
   }
   return o;
 }
@@ -196,8 +200,8 @@ void take_stage_angles(const CaptureArguments& arguments, const std::vector<std:
   std::error_code code;
   if (arguments.angles != "auto" || inputs.size() != 1 || !std::filesystem::is_directory(inputs[0], code))
     return;
-  for (const double angle : capture::stage_angles(inputs[0])) options.angles.push_back(radians(angle));
-  if (!options.angles.empty()) options.angle_source = capture::AngleSource::given;
+  for (const double angle : capture::stage_angles(inputs[0])) options.turn.angles.push_back(radians(angle));
+  if (!options.turn.angles.empty()) options.turn.source = capture::AngleSource::given;
 }
 
 void report_capture(const CaptureArguments& arguments, const std::filesystem::path& output,

@@ -12,7 +12,7 @@
 
 #include "capture/simulator.h"
 #include "sateen/capture/capture.h"
-#include "sateen/capture/median.h"
+#include "sateen/core/median.h"
 #include "sateen/core/parallel.h"
 #include "sateen/io/file.h"
 #include "sateen/io/image.h"
@@ -80,8 +80,8 @@ void photographs_to_amc(benchmark::State& state) {
   write_photographs(s, folder.path());
   const auto files = sateen::io::expand_inputs({folder.path()}, sateen::io::image_extensions());
   sateen::capture::CaptureOptions options;
-  options.fov = 2 * std::atan(s.width / 2.0 / s.focal);
-  options.zero_given = true;
+  options.lens.fov = 2 * std::atan(s.width / 2.0 / s.focal);
+  options.tangent.given = true;
   Cost decode;
   Cost build;
   for (auto _ : state) {
@@ -95,13 +95,12 @@ void photographs_to_amc(benchmark::State& state) {
     measure(build,
             [&] { benchmark::DoNotOptimize(sateen::capture::build_capture({folder.path()}, options)); });
   }
-  const double decode_seconds = sateen::capture::median(decode.clock);
-  const double build_seconds = sateen::capture::median(build.clock);
+  const double decode_seconds = sateen::median(decode.clock);
+  const double build_seconds = sateen::median(build.clock);
   state.counters["decode_twice_s"] = decode_seconds;
   state.counters["build_s"] = build_seconds;
   state.counters["times_decoding"] = build_seconds / decode_seconds;
-  state.counters["times_decoding_cpu"] =
-      sateen::capture::median(build.cpu) / sateen::capture::median(decode.cpu);
+  state.counters["times_decoding_cpu"] = sateen::median(build.cpu) / sateen::median(decode.cpu);
   state.counters["peak_MB"] = static_cast<double>(usage_now().ru_maxrss) / 1024;
 }
 BENCHMARK(photographs_to_amc)->Unit(benchmark::kSecond)->Iterations(3);

@@ -64,7 +64,7 @@ std::string chart(const CaptureResult& result, const std::string& title, const s
   double low = 1e300;
   double high = -1e300;
   for (const CaptureFrame& frame : result.frames) {
-    if (!frame.dropped.empty()) continue;
+    if (!frame.used()) continue;
     low = std::min(low, value(frame));
     high = std::max(high, value(frame));
   }
@@ -74,7 +74,7 @@ std::string chart(const CaptureResult& result, const std::string& title, const s
   const double n = static_cast<double>(std::max<std::size_t>(2, result.frames.size()));
   for (std::size_t i = 0; i < result.frames.size(); ++i) {
     const double x = 64 + 376 * static_cast<double>(i) / (n - 1);
-    if (!result.frames[i].dropped.empty()) {
+    if (!result.frames[i].used()) {
       dropped += fmt::format("<line x1='{0:.1f}' x2='{0:.1f}' y1='16' y2='104' class='drop'/>", x);
       continue;
     }
@@ -115,16 +115,17 @@ std::string symmetry_chart(const amc::SymmetryReport& symmetry) {
 
 /// The preview frame with the sphere's outline, centre and axis drawn on it.
 std::string framing(const CaptureResult& result, const std::string& picture) {
-  const double scale = static_cast<double>(result.preview.width) / result.camera.width;
+  const double scale = static_cast<double>(result.preview.width) / result.lens.camera.width;
   const CaptureFrame& frame = result.frames[static_cast<std::size_t>(result.preview_frame)];
-  const SphereView sphere = sphere_at(result.camera, frame.centre, frame.radius);
+  const Camera& camera = result.lens.camera;
+  const SphereView sphere = sphere_at(camera, frame.centre, frame.radius);
   std::string outline;
   for (int i = 0; i < 180; ++i) {
-    const Vec2 p = scale * sphere.outline_pixel(result.camera, radians(2 * i));
+    const Vec2 p = scale * sphere.outline_pixel(camera, radians(2 * i));
     outline += fmt::format("{:.1f},{:.1f} ", p.x(), p.y());
   }
   const Vec2 centre = scale * frame.centre;
-  const Vec2 pole = scale * result.camera.project(sphere.centre + result.axis);
+  const Vec2 pole = scale * camera.project(sphere.centre + result.turn.axis);
   const double radius = scale * frame.radius;
   const Vec2 tangent(std::cos(frame.angle), -std::sin(frame.angle));
   const Vec2 from = pole - 0.45 * radius * tangent;
@@ -144,27 +145,28 @@ std::string framing(const CaptureResult& result, const std::string& picture) {
 /// The body seen along the axis in the first frame: grey, lighter or darker where it deviates, red where it
 /// is masked.
 Image mask_picture(const CaptureResult& result) {
-  const int size = result.mask.size > 0 ? result.mask.size : result.table.size;
+  const SurfaceMask& mask = result.seams.mask;
+  const int size = mask.size > 0 ? mask.size : result.table.amc.size;
   Image picture(size, size, 3, 0.02f);
   for (int y = 0; y < size; ++y) {
     for (int x = 0; x < size; ++x) {
       if (disc_of_pixel(x, y, size).norm() >= 1) continue;
       const auto i = pixel_index(x, y, size);
-      const float deviation = result.mask.size > 0 ? result.mask.deviation[i] : 0;
+      const float deviation = mask.size > 0 ? mask.deviation[i] : 0;
       const float grey = std::clamp(0.25f * std::exp(deviation), 0.0f, 1.0f);
-      const bool masked = result.mask.size > 0 && result.mask.masked[i] != 0;
+      const bool masked = mask.size > 0 && mask.masked[i] != 0;
       picture.set_rgb(x, y, masked ? Vec3f(0.7f, 0.05f, 0.03f) : Vec3f(grey, grey, grey));
     }
   }
   return resized(picture, 256, 256);
 }
 
-Image clipped_picture(const CaptureResult& result) {
-  Image picture(result.clipped.width, result.clipped.height, 3, 0.02f);
+Image clipped_picture(const Image& clipped) {
+  Image picture(clipped.width, clipped.height, 3, 0.02f);
   for (int y = 0; y < picture.height; ++y) {
     for (int x = 0; x < picture.width; ++x) {
       if (disc_of_pixel(x, y, picture.width).norm() >= 1) continue;
-      const float share = std::sqrt(result.clipped.at(x, y, 0));
+      const float share = std::sqrt(clipped.at(x, y, 0));
       picture.set_rgb(x, y, {0.1f + 0.9f * share, 0.1f + 0.5f * share, 0.1f});
     }
   }
@@ -188,9 +190,12 @@ table{border-collapse:collapse}td,th{padding:.15rem .8rem .15rem 0;text-align:le
 )";
 
 std::string facts(const CaptureResult& result) {
-  const auto used =
-      std::ranges::count_if(result.frames, [](const CaptureFrame& f) { return f.dropped.empty(); });
-  const Vec2 centre = result.sphere.centre_pixel(result.camera);
+  const Camera& camera = result.lens.camera;
+  const Mounting& mounting = result.mounting;
+  const Turn& turn = result.turn;
+  const amc::AmcTable& table = result.table.amc;
+  const auto used = std::ranges::count_if(result.frames, &CaptureFrame::used);
+  const Vec2 centre = mounting.sphere.centre_pixel(camera);
   std::string rows;
   const auto row = [&](const std::string& name, const std::string& value) {
     rows += "<tr><th>" + name + "</th><td>" + escaped(value) + "</td></tr>";
@@ -198,27 +203,26 @@ std::string facts(const CaptureResult& result) {
   row("Frames", fmt::format("{} used of {}", used, result.frames.size()));
   row("Sphere",
       fmt::format("centre ({:.1f}, {:.1f}), radius {:.1f} pixels; it wobbles by {:.1f}, {:.2f} unexplained",
-                  centre.x(), centre.y(), result.sphere.radius_pixel(result.camera), result.wobble,
-                  result.wobble_rms));
+                  centre.x(), centre.y(), mounting.sphere.radius_pixel(camera), mounting.wobble,
+                  mounting.wobble_rms));
   row("Turn",
-      fmt::format("{:.1f} degrees {} from the first to the last frame, {}", std::abs(degrees(result.turned)),
-                  result.turned >= 0 ? "counter-clockwise" : "clockwise",
-                  result.equal_steps ? "in equal steps" : "in unequal steps"));
-  row("Tangent", result.zero_source);
-  row("Lens",
-      fmt::format("focal length {:.0f} pixels ({})", result.camera.focal.x(), result.camera.focal_source));
+      fmt::format("{:.1f} degrees {} from the first to the last frame, {}", std::abs(degrees(turn.turned)),
+                  turn.turned >= 0 ? "counter-clockwise" : "clockwise",
+                  turn.equal_steps ? "in equal steps" : "in unequal steps"));
+  row("Tangent", words(result.first_angle));
+  row("Lens", fmt::format("focal length {:.0f} pixels ({})", camera.focal.x(), words(result.lens.source)));
   row("Light", fmt::format("exposure drift {:.1f} %, clipped {:.1f} %", 100 * result.photometry.drift,
-                           100 * result.clipped_share));
-  row("Seams", fmt::format("{:.1f} % of the surface masked", 100 * result.mask.share));
+                           100 * result.clipping.share));
+  row("Seams", fmt::format("{:.1f} % of the surface masked", 100 * result.seams.mask.share));
   std::string similar;
-  for (const amc::Similarity& s : result.symmetry.similarities) {
+  for (const amc::Similarity& s : result.table.symmetry.similarities) {
     if (s.turns > 1)
       similar += fmt::format("{}R = {}: {:.1f} dB", similar.empty() ? "" : ", ", s.turns, s.psnr);
   }
-  row("Symmetry", fmt::format("R = {}{} ({})", result.table.symmetry,
-                              result.table.isotropic ? ", isotropic" : "", similar));
-  row("Table", fmt::format("{0} x {0} x {1}, {2:.1f} % measured, the rest filled", result.table.size,
-                           result.table.slices, 100 * result.seen_share));
+  row("Symmetry",
+      fmt::format("R = {}{} ({})", table.symmetry, table.isotropic ? ", isotropic" : "", similar));
+  row("Table", fmt::format("{0} x {0} x {1}, {2:.1f} % measured, the rest filled", table.size, table.slices,
+                           100 * result.table.seen_share));
   return "<table>" + rows + "</table>";
 }
 
@@ -243,14 +247,14 @@ void write_report(const fs::path& folder, const CaptureResult& result) {
                 warnings);
   std::string dropped;
   for (const CaptureFrame& frame : result.frames) {
-    if (!frame.dropped.empty()) dropped += fmt::format("<li>{}: {}</li>", escaped(frame.file), frame.dropped);
+    if (!frame.used()) dropped += fmt::format("<li>{}: {}</li>", escaped(frame.file), words(frame.dropped));
   }
   if (!dropped.empty()) dropped = "<h2>Frames left out</h2><ul>" + dropped + "</ul>";
   const auto picture = [&](const Image& image, const std::string& caption) {
     return fmt::format("<figure><img src='{}' alt='{}'><figcaption>{}</figcaption></figure>",
                        data_url(folder, image), caption, caption);
   };
-  const Vec2 middle = result.sphere.centre_pixel(result.camera);
+  const Vec2 middle = result.mounting.sphere.centre_pixel(result.lens.camera);
   const std::string html = fmt::format(
       "<!doctype html><html lang='en'><meta charset='utf-8'><meta name='viewport' "
       "content='width=device-width'>"
@@ -261,16 +265,16 @@ void write_report(const fs::path& folder, const CaptureResult& result) {
       "<div class='row'>{}{}{}{}</div><h2>Symmetry</h2><div class='row'>{}</div><h2>Seams and highlights</h2>"
       "<div class='row'>{}{}</div>{}</html>\n",
       kStyle, verdict, facts(result), framing(result, data_url(folder, result.preview)),
-      picture(amc::contact_sheet(result.table),
+      picture(amc::contact_sheet(result.table.amc),
               "Slices at eight tangent angles, and two cuts along the angle"),
       chart(result, "Turned", "degrees", [](const CaptureFrame& f) { return degrees(f.turned); }),
       chart(result, "Exposure", "relative", [](const CaptureFrame& f) { return f.gain.y(); }),
       chart(result, "Centre across", "pixels",
             [&](const CaptureFrame& f) { return f.centre.x() - middle.x(); }),
       chart(result, "Sharpness", "relative", [](const CaptureFrame& f) { return f.sharpness; }),
-      symmetry_chart(result.symmetry),
+      symmetry_chart(result.table.symmetry),
       picture(mask_picture(result), "The surface as it lies in the first frame; red: masked"),
-      picture(clipped_picture(result), "Bright: clipped in many frames"), dropped);
+      picture(clipped_picture(result.clipping.picture), "Bright: clipped in many frames"), dropped);
   io::write_text(folder / "report.html", html);
 }
 

@@ -36,49 +36,53 @@ std::string report_json(const CaptureResult& result) {
                 {fine(frame.gain.x() / frame.gain.y()), 1.0, fine(frame.gain.z() / frame.gain.y())}},
                {"sharpness", fine(frame.sharpness)},
                {"confidence", fine(frame.confidence)},
-               {"used", frame.dropped.empty()}};
-    if (!frame.dropped.empty()) entry["dropped"] = frame.dropped;
+               {"used", frame.used()}};
+    if (!frame.used()) entry["dropped"] = words(frame.dropped);
     json["frames"].push_back(std::move(entry));
   }
-  const Vec2 centre = result.sphere.centre_pixel(result.camera);
+  const Camera& camera = result.lens.camera;
+  const Mounting& mounting = result.mounting;
+  const Turn& turn = result.turn;
+  const amc::AmcTable& table = result.table.amc;
+  const Vec2 centre = mounting.sphere.centre_pixel(camera);
   Vec2 outline(0, 0);
-  for (int i = 0; i < 360; ++i) outline += result.sphere.outline_pixel(result.camera, radians(i)) / 360;
-  const Vec2 pole = result.camera.project(result.sphere.centre + result.axis);
+  for (int i = 0; i < 360; ++i) outline += mounting.sphere.outline_pixel(camera, radians(i)) / 360;
+  const Vec2 pole = camera.project(mounting.sphere.centre + turn.axis);
   json["sphere"] = {{"center", {fine(centre.x()), fine(centre.y())}},
-                    {"radius", fine(result.sphere.radius_pixel(result.camera))},
+                    {"radius", fine(mounting.sphere.radius_pixel(camera))},
                     {"outline_center", {fine(outline.x()), fine(outline.y())}},
-                    {"wobble_pixels", fine(result.wobble)},
-                    {"wobble_residual_pixels", fine(result.wobble_rms)},
-                    {"outline_seen", fine(result.outline_support)}};
-  json["camera"] = {{"width", result.camera.width},
-                    {"height", result.camera.height},
-                    {"focal_pixels", {fine(result.camera.focal.x()), fine(result.camera.focal.y())}},
-                    {"principal", {fine(result.camera.principal.x()), fine(result.camera.principal.y())}},
-                    {"source", result.camera.focal_source}};
-  if (result.focal) {
+                    {"wobble_pixels", fine(mounting.wobble)},
+                    {"wobble_residual_pixels", fine(mounting.wobble_rms)},
+                    {"outline_seen", fine(mounting.outline_support)}};
+  json["camera"] = {{"width", camera.width},
+                    {"height", camera.height},
+                    {"focal_pixels", {fine(camera.focal.x()), fine(camera.focal.y())}},
+                    {"principal", {fine(camera.principal.x()), fine(camera.principal.y())}},
+                    {"source", words(result.lens.source)}};
+  if (result.lens.estimate) {
     const LensEffect effect = focal_effect(result);
-    json["camera"]["focal_interval"] = {fine(result.focal->low), fine(result.focal->high)};
+    json["camera"]["focal_interval"] = {fine(result.lens.estimate->low), fine(result.lens.estimate->high)};
     json["camera"]["normals_off_degrees"] = fine(effect.normals);
     json["camera"]["tangents_off_degrees"] = fine(effect.tangents);
   }
-  json["axis"] = {{"direction", {fine(result.axis.x()), fine(result.axis.y()), fine(result.axis.z())}},
+  json["axis"] = {{"direction", {fine(turn.axis.x()), fine(turn.axis.y()), fine(turn.axis.z())}},
                   {"pole", {fine(pole.x()), fine(pole.y())}}};
-  json["turn"] = {{"degrees", fine(degrees(result.turned))},
-                  {"direction", result.turned >= 0 ? "counter-clockwise" : "clockwise"},
-                  {"equal_steps", result.equal_steps},
-                  {"zero", result.zero_source}};
+  json["turn"] = {{"degrees", fine(degrees(turn.turned))},
+                  {"direction", turn.turned >= 0 ? "counter-clockwise" : "clockwise"},
+                  {"equal_steps", turn.equal_steps},
+                  {"zero", words(result.first_angle)}};
   json["photometry"] = {{"corrected", result.photometry.measured},
                         {"drift", fine(result.photometry.drift)},
                         {"colour_drift", fine(result.photometry.colour_drift)},
                         {"banding", fine(result.photometry.banding)},
-                        {"clipped", fine(result.clipped_share)}};
-  json["symmetry"] = {{"R", result.table.symmetry}, {"isotropic", result.table.isotropic}};
-  for (const amc::Similarity& similarity : result.symmetry.similarities) {
+                        {"clipped", fine(result.clipping.share)}};
+  json["symmetry"] = {{"R", table.symmetry}, {"isotropic", table.isotropic}};
+  for (const amc::Similarity& similarity : result.table.symmetry.similarities) {
     json["symmetry"]["psnr_db"][std::to_string(similarity.turns)] = rounded(similarity.psnr, 0.01);
   }
-  json["mask"] = {{"share", fine(result.mask.share)}};
+  json["mask"] = {{"share", fine(result.seams.mask.share)}};
   json["table"] = {
-      {"size", result.table.size}, {"slices", result.table.slices}, {"measured", fine(result.seen_share)}};
+      {"size", table.size}, {"slices", table.slices}, {"measured", fine(result.table.seen_share)}};
   json["warnings"] = result.warnings;
   return json.dump(2) + "\n";
 }

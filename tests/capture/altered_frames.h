@@ -4,7 +4,7 @@
 #include <functional>
 
 #include "capture/simulator.h"
-#include "sateen/capture/sphere_view.h"
+#include "sateen/capture/sphere/sphere_view.h"
 #include "sateen/core/colour.h"
 #include "sateen/core/image.h"
 

@@ -9,7 +9,7 @@
 
 #include "capture/judge.h"
 #include "capture/simulator.h"
-#include "sateen/capture/surface_mask.h"
+#include "sateen/capture/report.h"
 #include "sateen/core/direction.h"
 #include "sateen/core/error.h"
 #include "sateen/io/file.h"
@@ -44,7 +44,7 @@ Simulation moderate() {
 TEST(Capture, ModerateNuisances) {
   const Simulation s = moderate();
   CaptureOptions options = informed_options(s);
-  options.size = 96;
+  options.table.size = 96;
   const CaptureResult result = capture_of(s, options);
   const CaptureErrors e = judge(result, s);
   EXPECT_LT(e.centre, 0.3);
@@ -52,7 +52,7 @@ TEST(Capture, ModerateNuisances) {
   EXPECT_LT(e.axis, 0.5);
   EXPECT_LT(e.angle, 0.2);
   EXPECT_LT(e.exposure, 0.004);
-  EXPECT_EQ(result.table.symmetry, 2);
+  EXPECT_EQ(result.table.amc.symmetry, 2);
   EXPECT_GT(e.table, 40);
   // The seam, found with no hint.
   EXPECT_GT(e.seam_recall, 0.95);
@@ -79,10 +79,10 @@ TEST(Capture, ClockwiseEqualStepsAreRecognised) {
   Simulation s = small();
   s.clockwise = true;
   const CaptureResult result = capture_of(s, small_options(s));
-  EXPECT_TRUE(result.equal_steps);
-  EXPECT_LT(result.turned, 0);
+  EXPECT_TRUE(result.turn.equal_steps);
+  EXPECT_LT(result.turn.turned, 0);
   EXPECT_LT(judge(result, s).angle, 0.02);
-  EXPECT_GT(test::table_psnr(result.table, s, result.seen), 36);
+  EXPECT_GT(test::table_psnr(result.table.amc, s, result.table.seen), 36);
 }
 
 TEST(Capture, BlurredAndRepeatedFramesAreDropped) {
@@ -91,11 +91,14 @@ TEST(Capture, BlurredAndRepeatedFramesAreDropped) {
   s.shaken = {9};
   s.repeated = {20, 21};
   const CaptureResult result = capture_of(s, small_options(s));
-  EXPECT_EQ(result.frames[9].dropped, "blurred");
-  EXPECT_THAT(result.frames[20].dropped, testing::HasSubstr("same angle"));
-  EXPECT_THAT(result.frames[21].dropped, testing::HasSubstr("same angle"));
-  EXPECT_EQ(std::ranges::count_if(result.frames, [](const CaptureFrame& f) { return f.dropped.empty(); }),
-            33);
+  EXPECT_EQ(result.frames[9].dropped, Dropped::blurred);
+  EXPECT_EQ(result.frames[20].dropped, Dropped::same_angle);
+  EXPECT_EQ(result.frames[21].dropped, Dropped::same_angle);
+  const std::string report = report_json(result);
+  EXPECT_THAT(report, testing::HasSubstr(R"("dropped": "blurred")"));
+  EXPECT_THAT(report, testing::HasSubstr(R"("dropped": "shows the same angle as the frame before")"));
+  EXPECT_THAT(report, testing::HasSubstr(R"("source": "field of view given")"));
+  EXPECT_EQ(std::ranges::count_if(result.frames, &CaptureFrame::used), 33);
 }
 
 TEST(Capture, StageAnglesAreEnoughWhereTheSurfaceIsPlain) {
@@ -105,12 +108,12 @@ TEST(Capture, StageAnglesAreEnoughWhereTheSurfaceIsPlain) {
   const TemporaryFolder folder;
   s.write(folder.path());
   CaptureOptions options = small_options(s);
-  options.angle_source = AngleSource::equal;
-  EXPECT_GT(test::table_psnr(build_capture({folder.path()}, options).table, s, {}), 36);
-  options.angle_source = AngleSource::given;
-  for (int i = 0; i < s.frames; ++i) options.angles.push_back(s.angle(i));
-  EXPECT_GT(test::table_psnr(build_capture({folder.path()}, options).table, s, {}), 36);
-  options.angles.pop_back();
+  options.turn.source = AngleSource::equal;
+  EXPECT_GT(test::table_psnr(build_capture({folder.path()}, options).table.amc, s, {}), 36);
+  options.turn.source = AngleSource::given;
+  for (int i = 0; i < s.frames; ++i) options.turn.angles.push_back(s.angle(i));
+  EXPECT_GT(test::table_psnr(build_capture({folder.path()}, options).table.amc, s, {}), 36);
+  options.turn.angles.pop_back();
   EXPECT_THROW(build_capture({folder.path()}, options), Error);
 }
 
@@ -118,15 +121,15 @@ TEST(Capture, TangentFromTheSeamOrReadOffAFrame) {
   Simulation s = small();
   s.seam = true;
   CaptureOptions options = small_options(s);
-  options.zero = ZeroAngle::seam;
-  options.zero_angle = radians(-90);
+  options.tangent.from = ZeroAngle::seam;
+  options.tangent.angle = radians(-90);
   const TemporaryFolder folder;
   s.write(folder.path());
   const CaptureResult from_seam = build_capture({folder.path()}, options);
   EXPECT_NEAR(degrees(from_seam.frames[0].angle), s.first_angle, 1);
-  options.zero = ZeroAngle::thread;
-  options.zero_frame = 9;
-  options.zero_angle = radians(s.first_angle) + s.angle(9);
+  options.tangent.from = ZeroAngle::thread;
+  options.tangent.frame = 9;
+  options.tangent.angle = radians(s.first_angle) + s.angle(9);
   EXPECT_NEAR(degrees(build_capture({folder.path()}, options).frames[0].angle), s.first_angle, 0.5);
 }
 
@@ -149,14 +152,15 @@ TEST(Capture, APaintedMaskIsTrackedThroughTheTurn) {
   const TemporaryFolder other;
   io::write_image(other / "mask.png", paint);
   CaptureOptions options = small_options(s);
-  options.find_blemishes = false;
+  options.seams.find_blemishes = false;
   const CaptureResult without = build_capture({folder.path()}, options);
-  options.mask = other / "mask.png";
-  options.mask_frame = painted;
+  options.seams.mask = other / "mask.png";
+  options.seams.mask_frame = painted;
   const CaptureResult with = build_capture({folder.path()}, options);
-  EXPECT_GT(with.mask.share, 0.01);
-  EXPECT_GT(test::table_psnr(with.table, s, with.seen), test::table_psnr(without.table, s, without.seen) + 5);
-  options.mask_frame = 99;
+  EXPECT_GT(with.seams.mask.share, 0.01);
+  EXPECT_GT(test::table_psnr(with.table.amc, s, with.table.seen),
+            test::table_psnr(without.table.amc, s, without.table.seen) + 5);
+  options.seams.mask_frame = 99;
   EXPECT_THROW(build_capture({folder.path()}, options), Error);
 }
 
@@ -167,7 +171,7 @@ TEST(Capture, APostInFrontIsLeftOut) {
   s.wobble = {2, 1};  // the post stands still, the sphere's picture does not
   const CaptureResult result = capture_of(s, small_options(s));
   EXPECT_THAT(result.warnings, testing::Contains(testing::HasSubstr("stands still")));
-  EXPECT_GT(test::table_psnr(result.table, s, result.seen), 33);
+  EXPECT_GT(test::table_psnr(result.table.amc, s, result.table.seen), 33);
 }
 
 TEST(Capture, ExposureAndColourDriftAreRemoved) {
@@ -177,14 +181,14 @@ TEST(Capture, ExposureAndColourDriftAreRemoved) {
   const CaptureResult result = capture_of(s, small_options(s));
   EXPECT_LT(judge(result, s).exposure, 0.01);
   EXPECT_THAT(result.warnings, testing::Contains(testing::HasSubstr("exposure changes")));
-  EXPECT_GT(test::table_psnr(result.table, s, result.seen), 35);
+  EXPECT_GT(test::table_psnr(result.table.amc, s, result.table.seen), 35);
 }
 
 TEST(Capture, ClippedHighlightsAreReported) {
   Simulation s = small();
   s.exposure = 2;
   const CaptureResult result = capture_of(s, small_options(s));
-  EXPECT_GT(result.clipped_share, 0.01);
+  EXPECT_GT(result.clipping.share, 0.01);
   EXPECT_THAT(result.warnings, testing::Contains(testing::HasSubstr("clipped")));
 }
 
@@ -195,7 +199,7 @@ TEST(Capture, AVideoGivesTheTableOfItsPictures) {
   test::write_video(s, folder / "turn.avi");
   const CaptureResult result = build_capture({folder / "turn.avi"}, small_options(s));
   EXPECT_EQ(result.frames.size(), 36);
-  EXPECT_GT(test::table_psnr(result.table, s, result.seen), 35);
+  EXPECT_GT(test::table_psnr(result.table.amc, s, result.table.seen), 35);
 
   // An index that promises frames the file no longer has.
   auto bytes = io::read_bytes(folder / "turn.avi");

@@ -7,8 +7,8 @@
 #include <gtest/gtest.h>
 
 #include "capture/judge.h"
-#include "sateen/capture/choose_camera.h"
-#include "sateen/capture/focal_estimate.h"
+#include "sateen/capture/sphere/focal_estimate.h"
+#include "sateen/capture/sphere/lens.h"
 #include "sateen/core/direction.h"
 
 namespace sateen::capture {
@@ -85,10 +85,10 @@ TEST(CaptureFocal, ACaptureWithoutNotesEstimatesItAndWarns) {
   s.centre = {290, 150};
   s.radius = 60;
   const CaptureResult result = test::capture_of(s, test::informed_options(s, false));
-  ASSERT_TRUE(result.focal);
-  EXPECT_TRUE(result.focal->informed);
-  EXPECT_EQ(result.camera.focal_source, kEstimatedFocal);
-  EXPECT_NEAR(result.camera.focal.x() / s.focal, 1, 0.15);
+  ASSERT_TRUE(result.lens.estimate);
+  EXPECT_TRUE(result.lens.estimate->informed);
+  EXPECT_EQ(result.lens.source, FocalSource::outline);
+  EXPECT_NEAR(result.lens.camera.focal.x() / s.focal, 1, 0.15);
   EXPECT_THAT(result.warnings, Contains(HasSubstr("estimated from the sphere's outline")));
 }
 

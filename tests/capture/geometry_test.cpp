@@ -4,11 +4,11 @@
 #include <gtest/gtest.h>
 
 #include "capture/simulator.h"
-#include "sateen/capture/angles.h"
-#include "sateen/capture/bracket.h"
-#include "sateen/capture/calibrate.h"
-#include "sateen/capture/mirror_ball.h"
-#include "sateen/capture/stack.h"
+#include "sateen/capture/exposure/mirror_ball.h"
+#include "sateen/capture/photographs/bracket.h"
+#include "sateen/capture/sphere/calibrate.h"
+#include "sateen/capture/table/stack.h"
+#include "sateen/capture/turning/angles.h"
 #include "sateen/core/direction.h"
 #include "sateen/core/error.h"
 #include "sateen/io/file.h"

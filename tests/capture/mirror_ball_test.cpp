@@ -6,8 +6,8 @@
 
 #include "capture/altered_frames.h"
 #include "capture/simulator.h"
-#include "sateen/capture/measure.h"
-#include "sateen/capture/mirror_ball_shot.h"
+#include "sateen/capture/exposure/mirror_ball_shot.h"
+#include "sateen/capture/sphere/first_look.h"
 #include "sateen/core/direction.h"
 #include "sateen/core/error.h"
 #include "sateen/io/image.h"
@@ -104,13 +104,13 @@ TEST(CaptureMirrorBall, APictureWithoutABallIsRefused) {
   std::filesystem::create_directory(folder / "shots");
   s.write(folder / "shots");
   FrameSource source = FrameSource::open({folder / "shots"}, {});
-  const FirstLook look = first_look(source, s.camera(), {});
+  const FirstLook look = first_look(source, {s.camera(), FocalSource::calibration, {}}, {});
   const auto complaint = [&](const Image& picture) -> std::string {
-    CaptureOptions options;
-    options.mirror_ball = folder / "picture.png";
-    io::write_image(options.mirror_ball, picture);
+    MirrorBallOptions options;
+    options.picture = folder / "picture.png";
+    io::write_image(options.picture, picture);
     try {
-      mirror_ball_shot(options, look, s.camera());
+      mirror_ball_shot(options, {}, look);
     } catch (const Error& error) {
       return error.what();
     }

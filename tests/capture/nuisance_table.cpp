@@ -33,8 +33,8 @@ void row(const char* name, const std::function<void(test::Simulation&, bool& len
                  100 * errors.seam_precision);
     }
     if (!lens) {
-      fmt::print(" focal {:.0f} ({:.0f} to {:.0f}) of {:.0f} px, {}", result.camera.focal.x(),
-                 result.focal->low, result.focal->high, s.focal, result.camera.focal_source);
+      fmt::print(" focal {:.0f} ({:.0f} to {:.0f}) of {:.0f} px, {}", result.lens.camera.focal.x(),
+                 result.lens.estimate->low, result.lens.estimate->high, s.focal, words(result.lens.source));
     }
     fmt::print("\n");
     if (verbose) {

@@ -14,6 +14,8 @@
 #include "capture/simulated_exif.h"
 #include "capture/simulator.h"
 #include "sateen/capture/capture.h"
+#include "sateen/capture/sphere/first_look.h"
+#include "sateen/capture/sphere/stand.h"
 #include "sateen/core/direction.h"
 #include "sateen/core/error.h"
 #include "sateen/io/file.h"
@@ -25,6 +27,7 @@ namespace {
 
 using test::Simulation;
 using test::TemporaryFolder;
+using testing::HasSubstr;
 
 TEST(CapturePhotographs, BracketedExposuresKeepTheHighlights) {
   constexpr double kLonger = 3;
@@ -50,12 +53,12 @@ TEST(CapturePhotographs, BracketedExposuresKeepTheHighlights) {
   const CaptureOptions options = test::small_options(dark);
   const CaptureResult merged = build_capture({both.path()}, options);
   EXPECT_EQ(merged.frames.size(), 36);
-  EXPECT_LT(merged.clipped_share, 0.001);
+  EXPECT_LT(merged.clipping.share, 0.001);
   const CaptureResult clipped = build_capture({long_only.path()}, options);
-  EXPECT_GT(clipped.clipped_share, 0.02);
-  const double merged_psnr = test::table_psnr(merged.table, bright, merged.seen);
+  EXPECT_GT(clipped.clipping.share, 0.02);
+  const double merged_psnr = test::table_psnr(merged.table.amc, bright, merged.table.seen);
   EXPECT_GT(merged_psnr, 28);
-  EXPECT_GT(merged_psnr, test::table_psnr(clipped.table, bright, clipped.seen) + 8);
+  EXPECT_GT(merged_psnr, test::table_psnr(clipped.table.amc, bright, clipped.table.seen) + 8);
 }
 
 TEST(CapturePhotographs, FlickerWithinAFrameIsTold) {
@@ -95,10 +98,10 @@ TEST(CapturePhotographs, UnreadableExifIsAsGoodAsNone) {
     test::put_exif(file, blocks[static_cast<std::size_t>(i) % blocks.size()]);
   }
   CaptureOptions options = test::small_options(s);
-  options.fov = 0;  // so that the notes are asked for the lens
+  options.lens.fov = 0;  // so that the notes are asked for the lens
   const CaptureResult result = build_capture({folder.path()}, options);
   EXPECT_EQ(result.frames.size(), 36);
-  EXPECT_EQ(result.camera.focal_source, "assumed");
+  EXPECT_EQ(result.lens.source, FocalSource::assumed);
   EXPECT_THAT(result.warnings, testing::Contains(testing::HasSubstr("the lens is unknown")));
 }
 
@@ -113,22 +116,28 @@ TEST(CapturePhotographs, LightBelowZeroIsDark) {
   }
   const CaptureResult result = build_capture({folder.path()}, test::small_options(s));
   const auto brightest =
-      std::ranges::max(result.table.texels, {}, [](Half h) { return static_cast<float>(h); });
+      std::ranges::max(result.table.amc.texels, {}, [](Half h) { return static_cast<float>(h); });
   EXPECT_LT(static_cast<float>(brightest), 1.5f);
 }
 
-/// What is said of the simulation's pictures enlarged so that every pixel becomes kLarge x kLarge: in these
-/// the sphere is looked for at half the size.
 constexpr int kLarge = 4;
-std::string complaint_of_enlarged(const Simulation& s) {
-  const TemporaryFolder folder;
+
+/// The simulation's pictures enlarged so that every pixel becomes kLarge x kLarge, cut off after `width`: in
+/// these the sphere is looked for at half the size.
+void write_enlarged(const Simulation& s, const std::filesystem::path& folder, int width) {
   for (int i = 0; i < s.frames; ++i) {
     io::Picture8 picture = s.render(i);
     const cv::Mat pixels(picture.height, picture.width, CV_8UC3, picture.rgb.data());
     cv::Mat large;
     cv::resize(pixels, large, {}, kLarge, kLarge, cv::INTER_NEAREST);
-    cv::imwrite(folder / fmt::format("shot_{:03}.jpg", i), large);
+    cv::imwrite(folder / fmt::format("shot_{:03}.jpg", i), large.colRange(0, width));
   }
+}
+
+/// What is said of them.
+std::string complaint_of_enlarged(const Simulation& s) {
+  const TemporaryFolder folder;
+  write_enlarged(s, folder.path(), kLarge * s.width);
   try {
     build_capture({folder.path()}, test::small_options(s));
   } catch (const Error& error) {
@@ -144,6 +153,44 @@ std::vector<double> numbers_in(const std::string& text) {
   for (std::sregex_iterator i(text.begin(), text.end(), number); i != std::sregex_iterator(); ++i)
     numbers.push_back(std::stod(i->str()));
   return numbers;
+}
+
+TEST(CapturePhotographs, AStandIsFoundWhereTheWidthIsOdd) {
+  Simulation s = test::small_simulation(14);
+  s.covered = true;  // below the sphere's middle
+  s.wobble = {2, 1};
+  const TemporaryFolder folder;
+  const int width = kLarge * s.width - 1;
+  write_enlarged(s, folder.path(), width);
+  FrameSource source = FrameSource::open({folder.path()}, {});
+  const Lens lens{Camera::pinhole(width, source.height(), kLarge * s.focal), FocalSource::field_of_view, {}};
+  const StillMask stand = find_stand(first_look(source, lens, {})).mask;
+  EXPECT_EQ(stand.width, width / 2);
+  const auto hides = [&](double across, double down) {
+    const Vec2f at = (kLarge * (s.centre + s.radius * Vec2(across, down))).cast<float>();
+    return stand.hides(at.x(), at.y());
+  };
+  for (const double down : {0.65, 0.75, 0.85}) {
+    EXPECT_TRUE(hides(0, down)) << down;
+    EXPECT_FALSE(hides(-0.3, down)) << down;
+    EXPECT_FALSE(hides(0.3, down)) << down;
+  }
+  EXPECT_FALSE(hides(0, 0.2));
+}
+
+TEST(CapturePhotographs, OneOfAnotherSizeIsNamedWithBothSizes) {
+  const Simulation s = test::small_simulation(16);
+  const TemporaryFolder folder;
+  std::filesystem::create_directory(folder / "shots");
+  s.write(folder / "shots");
+  io::write_image(folder / "shots" / "frame_007.png", Image(320, 192, 3, 0.5f));
+  const auto output = folder / "cloth.ktx2";
+  const auto result = test::run_program(fmt::format("capture build {} -o {} --fov 40 --first-angle 0",
+                                                    (folder / "shots").string(), output.string()));
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_THAT(result.output, testing::AllOf(HasSubstr("frame_007.png"), HasSubstr("320 x 192"),
+                                            HasSubstr("400 x 240"), HasSubstr("must be alike")));
+  EXPECT_FALSE(std::filesystem::exists(output));
 }
 
 TEST(CapturePhotographs, PlacesAreToldInTheirOwnPixels) {

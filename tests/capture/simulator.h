@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "sateen/amc/table.h"
-#include "sateen/capture/camera.h"
-#include "sateen/capture/sphere_view.h"
+#include "sateen/capture/sphere/camera.h"
+#include "sateen/capture/sphere/sphere_view.h"
 #include "sateen/core/image.h"
 #include "sateen/io/picture8.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "sateen/capture/stage.h"
+#include "sateen/capture/rig/stage.h"
 
 #include <chrono>
 #include <random>
@@ -9,7 +9,7 @@
 
 #include "capture/simulated_grbl.h"
 #include "io/full_disk.h"
-#include "sateen/capture/live.h"
+#include "sateen/capture/rig/live.h"
 #include "sateen/core/error.h"
 #include "sateen/io/file.h"
 #include "support/files.h"

@@ -40,7 +40,7 @@ TEST(CaptureVideo, UsesWhatThereIsOfAPromiseTooLarge) {
   patch_stream_header(folder / "turn.avi", kLength, 48);
   const CaptureResult result = build_capture({folder / "turn.avi"}, test::small_options(s));
   EXPECT_EQ(result.frames.size(), 40);
-  EXPECT_TRUE(result.equal_steps);
+  EXPECT_TRUE(result.turn.equal_steps);
   EXPECT_THAT(result.warnings, testing::Contains(testing::HasSubstr("promises 48 frames, but only 40")));
 }
 
@@ -60,8 +60,8 @@ TEST(CaptureVideo, UsesEveryNthFrameOfALongOne) {
   test::write_video(s, folder / "turn.avi");
   CaptureOptions options = test::small_options(s);
   options.source.max_frames = 25;
-  options.angle_source = AngleSource::given;
-  for (int i = 0; i < s.frames; ++i) options.angles.push_back(s.angle(i));
+  options.turn.source = AngleSource::given;
+  for (int i = 0; i < s.frames; ++i) options.turn.angles.push_back(s.angle(i));
   const CaptureResult result = build_capture({folder / "turn.avi"}, options);
   ASSERT_EQ(result.frames.size(), 20);
   EXPECT_EQ(result.frames[7].file, "turn.avi#21");

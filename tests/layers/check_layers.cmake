@@ -1,8 +1,13 @@
 # SPDX-License-Identifier: MIT
-# cmake -P check_layers.cmake FOLDER: fails when a file in FOLDER includes from a subfolder that stands below its own in
-# the list of FOLDER/CMakeLists.txt, or when a subfolder with sources is not in that list.
+# cmake -P check_layers.cmake FOLDER [NAME]: fails when a file in FOLDER includes from a subfolder that stands below its
+# own in the list of FOLDER/CMakeLists.txt, or when a subfolder with sources is not in that list. NAME is how FOLDER is
+# spelled in includes, "sateen" if it is left out. Files in FOLDER itself stand below all subfolders.
 cmake_minimum_required(VERSION 3.22)
 get_filename_component(source ${CMAKE_ARGV3} ABSOLUTE)
+set(name sateen)
+if(CMAKE_ARGC GREATER 4)
+  set(name ${CMAKE_ARGV4})
+endif()
 file(READ ${source}/CMakeLists.txt build_file)
 if(NOT build_file MATCHES "foreach\\(folder ([a-z ]+)\\)")
   message(FATAL_ERROR "${source}/CMakeLists.txt has no foreach(folder ...) that names the folders in order")
@@ -10,7 +15,7 @@ endif()
 string(REPLACE " " ";" order "${CMAKE_MATCH_1}")
 
 set(faults 0)
-file(GLOB_RECURSE files RELATIVE ${source} ${source}/*.h ${source}/*.cpp)
+file(GLOB_RECURSE files RELATIVE ${source} ${source}/*/*.h ${source}/*/*.cpp)
 foreach(file ${files})
   string(REGEX REPLACE "/.*" "" folder ${file})
   list(FIND order ${folder} own)
@@ -19,9 +24,9 @@ foreach(file ${files})
     math(EXPR faults "${faults} + 1")
     continue()
   endif()
-  file(STRINGS ${source}/${file} includes REGEX "^ *# *include *[\"<]sateen/")
+  file(STRINGS ${source}/${file} includes REGEX "^ *# *include *[\"<]${name}/")
   foreach(include ${includes})
-    string(REGEX REPLACE ".*sateen/([^/\">]+).*" "\\1" target "${include}")
+    string(REGEX REPLACE ".*[\"<]${name}/([^/\">]+).*" "\\1" target "${include}")
     list(FIND order ${target} other)
     if(other LESS 0 OR other GREATER own)
       message(SEND_ERROR "${file}: ${folder} stands above ${target} and must not include it: ${include}")
