@@ -12,6 +12,7 @@ void add_amc_info(CLI::App& parent);
 void add_amc_pictures(CLI::App& parent);
 void add_amc_symmetry(CLI::App& parent);
 void add_brdf_eval(CLI::App& parent);
+void add_brdf_parameters(CLI::App& parent);
 void add_brdf_plot(CLI::App& parent);
 void add_capture_build(CLI::App& parent);
 void add_capture_calibrate(CLI::App& parent);

@@ -91,6 +91,7 @@ void add_commands(CLI::App& app) {
   add_matcap_bake(matcap);
   CLI::App& brdf = add_noun(app, "brdf", "Reflectance models: evaluate, plot");
   add_brdf_eval(brdf);
+  add_brdf_parameters(brdf);
   add_brdf_plot(brdf);
   CLI::App& maps = add_noun(app, "maps", "Texture maps: author, filter, compress");
   CLI::App& aniso = add_noun(maps, "aniso", "Anisotropy maps: author, filter with normals, decode");

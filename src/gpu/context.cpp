@@ -97,6 +97,10 @@ void Context::make_current() const {
   }
 }
 
+bool context_is_current() {
+  return eglGetCurrentContext() != EGL_NO_CONTEXT;
+}
+
 bool Context::is_software() const {
   return renderer_.find("llvmpipe") != std::string::npos || renderer_.find("softpipe") != std::string::npos ||
          renderer_.find("SwiftShader") != std::string::npos;
