@@ -39,14 +39,17 @@ void add_brdf_parameters(CLI::App& parent) {
     std::filesystem::path material;
     bool json = false;
   };
-  CLI::App* command = add_command(parent, "parameters", "List what can be changed of a material, with ranges and defaults",
-                                  "sateen brdf parameters examples/materials/velvet.json");
+  CLI::App* command =
+      add_command(parent, "parameters", "List what can be changed of a material, with ranges and defaults",
+                  "sateen brdf parameters examples/materials/velvet.json");
   auto options = std::make_shared<Options>();
   command->add_option("material", options->material, "Any material file")->required();
-  command->add_flag("--json", options->json, "JSON, with the values the material has, in place of a Markdown table");
+  command->add_flag("--json", options->json,
+                    "JSON, with the values the material has, in place of a Markdown table");
   command->callback([options] {
     const auto appearance = scene::load_appearance(options->material);
-    print(options->json ? json_of(*appearance).dump(2) + "\n" : appearance::markdown(appearance->parameters()));
+    print(options->json ? json_of(*appearance).dump(2) + "\n"
+                        : appearance::markdown(appearance->parameters()));
   });
 }
 

@@ -10,10 +10,8 @@
 #include <fmt/format.h>
 
 #include "command.h"
-
 #include "sateen/io/file.h"
 #include "sateen/io/video.h"
-
 
 namespace sateen::cli {
 namespace {

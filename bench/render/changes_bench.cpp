@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// What a change between two frames costs, in frames of 512 x 512: the time from the change to the finished next frame, less
-// a frame without one. The last line is the longest time the drawing thread was held while a fuzz's tables were made.
+// What a change between two frames costs, in frames of 512 x 512: the time from the change to the finished
+// next frame, less a frame without one. The last line is the longest time the drawing thread was held while a
+// fuzz's tables were made.
 #include <algorithm>
 #include <array>
 #include <functional>
@@ -87,9 +88,11 @@ scene::Scene jacket(std::shared_ptr<appearance::Appearance> appearance) {
 int main() {
   const gpu::Context context;
   const gpu::Framebuffer target(kSide, kSide);
-  fmt::print("{:<52} {:>11} {:>15}\n", fmt::format("{}, {} x {}", context.renderer(), kSide, kSide), "a frame",
-             "the change");
-  const auto example = [](const char* name) { return scene::load_appearance(test::examples() / "materials" / name); };
+  fmt::print("{:<52} {:>11} {:>15}\n", fmt::format("{}, {} x {}", context.renderer(), kSide, kSide),
+             "a frame", "the change");
+  const auto example = [](const char* name) {
+    return scene::load_appearance(test::examples() / "materials" / name);
+  };
 
   Stage satin(jacket(example("satin.json")), target);
   const light::Lighting lighting = satin.scene.lighting;
@@ -105,7 +108,8 @@ int main() {
       io::read_image(test::examples() / "matcaps" / "jade.exr"), {256, 256, 255.5}, {}, "jade")));
   Stage decomposed(jacket(matcap), target);
   decomposed.frame([&] { matcap->set("turn_y", 1.0); });
-  report_change("turning a decomposed MatCap's light", decomposed, [&](int i) { matcap->set("turn_y", 5.0 * i); });
+  report_change("turning a decomposed MatCap's light", decomposed,
+                [&](int i) { matcap->set("turn_y", 5.0 * i); });
   report_change("a colour of a decomposed MatCap", decomposed,
                 [&](int i) { matcap->set("high.color", Vec3(1, 0.05 * i, 0.5)); });
   report_change("roughness of a decomposed MatCap", decomposed,
@@ -113,9 +117,8 @@ int main() {
 
   Stage silk(jacket(std::make_shared<amc::AmcAppearance>(test::analytic_table(128, 128, 2))), target);
   report_change("the tangent angle of an AMC", silk, [&](int i) { silk.renderer.set_tangent_turn(0.1 * i); });
-  report_change("another material (an AMC, seen before)", silk, [&](int) {
-    silk.renderer.set_material(0, silk.scene.materials[0]);
-  });
+  report_change("another material (an AMC, seen before)", silk,
+                [&](int) { silk.renderer.set_material(0, silk.scene.materials[0]); });
 
   Stage velvet(jacket(example("velvet.json")), target);
   std::vector<double> plain;
@@ -123,7 +126,8 @@ int main() {
   const std::uint64_t before = velvet.material().revision();
   double longest = velvet.frame([&] { velvet.material().set("fuzz.density", 0.5); });
   int frames = 1;
-  for (; velvet.material().revision() == before && frames < 100000; ++frames) longest = std::max(longest, velvet.frame());
+  for (; velvet.material().revision() == before && frames < 100000; ++frames)
+    longest = std::max(longest, velvet.frame());
   fmt::print("{:<52} {:>8.2f} ms {:>8.2f} frames\n",
              fmt::format("fuzz density: longest wait, shown after {} frames", frames), median(plain) * 1e3,
              longest / median(plain) - 1);

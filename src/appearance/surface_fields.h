@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
-// What an appearance knows of a surface point: one row a field. From these rows come the C++ and the GLSL struct, the
-// vertex attributes and varyings, the packed pictures of a surface, the AOVs of `sateen render` and the inputs of
-// `sateen shade` (surface.h, cmake/surface_fields.cmake, scene/surface_images.h). One more field is one more row, and the
-// array in core/mesh.h if it comes from the mesh.
+// What an appearance knows of a surface point: one row a field. From these rows come the C++ and the GLSL
+// struct, the vertex attributes and varyings, the packed pictures of a surface, the AOVs of `sateen render`
+// and the inputs of `sateen shade` (surface.h, cmake/surface_fields.cmake, scene/surface_images.h). One more
+// field is one more row, and the array in core/mesh.h if it comes from the mesh.
 //
-// SURFACE_FIELD(C++ type, GLSL type, name, AOV or "", input of `shade` or "", meaning, value where nothing is known...)
-// SURFACE_VERTEX_FIELD(..., array of core/mesh.h between input and meaning): interpolated from the mesh's vertices.
-// Include it as often as there are tables to make: each time it forgets both macros. Types: double/float, int, Vec2/vec2, Vec3/vec3, Vec4/vec4. One row a line: a script of CMake reads this file too.
+// SURFACE_FIELD(C++ type, GLSL type, name, AOV or "", input of `shade` or "", meaning, value where nothing is
+// known...) SURFACE_VERTEX_FIELD(..., array of core/mesh.h between input and meaning): interpolated from the
+// mesh's vertices. Include it as often as there are tables to make: each time it forgets both macros. Types:
+// double/float, int, Vec2/vec2, Vec3/vec3, Vec4/vec4. One row a line: a script of CMake reads this file too.
 // clang-format off
 #ifndef SURFACE_FIELD
 #define SURFACE_FIELD(...)

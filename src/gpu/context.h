@@ -33,7 +33,8 @@ class Context {
   std::string renderer_;
 };
 
-/// Whether an OpenGL context made through EGL is current on the calling thread, of this library or a window's.
+/// Whether an OpenGL context made through EGL is current on the calling thread, of this library or a
+/// window's.
 bool context_is_current();
 
 }  // namespace sateen::gpu

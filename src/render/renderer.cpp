@@ -64,7 +64,8 @@ struct Renderer::Data {
   std::vector<std::optional<SurfacePass>> surface_passes;  ///< the same, writing what is known of the surface
   gpu::Program display;
   gpu::Handle no_attributes;
-  std::map<std::array<int, 4>, gpu::Framebuffer> framebuffers;  ///< by width, height, targets; or a second one
+  std::map<std::array<int, 4>, gpu::Framebuffer>
+      framebuffers;  ///< by width, height, targets; or a second one
 
   explicit Data(const scene::Scene& scene)
       : offer(scene::offer_of(scene.mesh)),

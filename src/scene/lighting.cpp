@@ -49,7 +49,8 @@ light::Lighting make_lighting(std::span<const LoadedMaterial> materials, const L
                       light::turn_about_vertical(options.environment_turn));
     return lighting;
   }
-  return named == materials.end() ? lighting_of(light::default_lighting()) : appearance::make_lighting(named->lighting);
+  return named == materials.end() ? lighting_of(light::default_lighting())
+                                  : appearance::make_lighting(named->lighting);
 }
 
 bool names_several_lights(std::span<const LoadedMaterial> materials) {

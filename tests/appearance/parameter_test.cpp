@@ -67,7 +67,8 @@ TEST(Parameter, SettingOneIsWritingItInTheFile) {
   const std::string start = R"({"model": "layered", "fuzz": {"density": 0.2, "tilt": 20},
                                 "specular": {"alpha_t": 0.4, "alpha_b": 0.2}})";
   io::write_text(folder / "start.json", start);
-  io::write_text(folder / "end.json", R"({"model": "layered", "base": {"model": "fibre-diffuse", "color": [0.1, 0.2, 0.3]},
+  io::write_text(folder / "end.json",
+                 R"({"model": "layered", "base": {"model": "fibre-diffuse", "color": [0.1, 0.2, 0.3]},
       "fuzz": {"density": 0.6, "tilt": 45, "azimuth": 30, "phase": "schlick"},
       "specular": {"alpha_t": 0.1, "alpha_b": 0.5, "energy_compensation": true}})");
   const auto set = scene::load_appearance(folder / "start.json");
@@ -92,7 +93,8 @@ TEST(Parameter, OldSpellingsAreReadAndUnknownKeysRefusedWithTheListOfThatPlace) 
     io::write_text(folder / "m.json", text);
     return scene::load_appearance(folder / "m.json");
   };
-  EXPECT_EQ(std::get<Vec3>(load(R"({"model": "constant", "colour": [1, 2, 3]})")->get("color")), Vec3(1, 2, 3));
+  EXPECT_EQ(std::get<Vec3>(load(R"({"model": "constant", "colour": [1, 2, 3]})")->get("color")),
+            Vec3(1, 2, 3));
   EXPECT_EQ(std::get<Vec3>(load(R"({"model": "layered", "base": {"colour": 0.25}})")->get("base.color")),
             Vec3(0.25, 0.25, 0.25));
   EXPECT_THAT(message([&] { load(R"({"model": "constant", "color": 1, "tint": 2})"); }),

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What every reflectance promises, asked of every lit example: sampling agrees with its density, and integrating lit() by
-// it agrees with the closed term for the surroundings.
+// What every reflectance promises, asked of every lit example: sampling agrees with its density, and
+// integrating lit() by it agrees with the closed term for the surroundings.
 #include <gtest/gtest.h>
 
 #include "brdf/random_directions.h"
@@ -42,6 +42,13 @@ Vec3 uniform3(std::mt19937& random) {
   return {value(random), value(random), value(random)};
 }
 
+/// What the closed term may be off. Velvet: one factor stands for all lights that cross the fuzz on their way
+/// to the reflection. Moss: the slides' ambient product for the simplified fuzz, as printed.
+double stated_error(const std::string& example) {
+  if (example == "velvet") return 0.1;
+  return example == "moss" ? 0.13 : 0.035;
+}
+
 TEST(Reflectance, AWhiteFurnaceBySamplesIsTheClosedTermForSurroundings) {
   ASSERT_GE(lit_examples().size(), 7u);
   light::Lighting furnace;
@@ -59,7 +66,7 @@ TEST(Reflectance, AWhiteFurnaceBySamplesIsTheClosedTermForSurroundings) {
       }
       const Vec3 sampled = sum / kSamples;
       const Vec3 closed = point->surroundings(furnace.surroundings);
-      EXPECT_LT((sampled - closed).norm(), 0.035 * closed.norm())
+      EXPECT_LT((sampled - closed).norm(), stated_error(example.name) * closed.norm())
           << example.name << " at " << cosine << ": " << sampled.transpose() << " for " << closed.transpose();
     }
   }
@@ -98,9 +105,8 @@ TEST(Reflectance, LampsAddUpAndWhatIsHiddenIsMissing) {
     const Vec3 second = lighting.lamps[1].colour.cwiseProduct(point->lit(lighting.lamps[1].direction));
     const Vec3 both = example.appearance->radiance(surface, lighting);
     EXPECT_LT((both - second - point->lit(lighting.lamps[0].direction)).norm(), 1e-12) << example.name;
-    const Vec3 half = example.appearance->radiance(surface, lighting, [](std::size_t lamp, const Surface&) {
-      return lamp == 0 ? 0.0 : 0.5;
-    });
+    const Vec3 half = example.appearance->radiance(
+        surface, lighting, [](std::size_t lamp, const Surface&) { return lamp == 0 ? 0.0 : 0.5; });
     EXPECT_LT((half - 0.5 * second).norm(), 1e-12) << example.name;
   }
 }

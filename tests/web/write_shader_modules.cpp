@@ -56,7 +56,8 @@ class Writer {
  public:
   explicit Writer(fs::path folder) : folder_(std::move(folder)) {}
 
-  void add(const std::string& name, std::shared_ptr<appearance::Appearance> appearance, const Variant& variant = {}) {
+  void add(const std::string& name, std::shared_ptr<appearance::Appearance> appearance,
+           const Variant& variant = {}) {
     scene::Material material{.appearance = std::move(appearance)};
     if (variant.maps) {
       const auto picture = std::make_shared<const TextureData>(picture_texture(Image(1, 1, 3, 0.5f)));
@@ -115,7 +116,8 @@ void write_all(const fs::path& folder, const fs::path& examples) {
   const auto silk = scene::load_appearance(folder / "silk.ktx2");
   writer.add("AMC", silk);
   writer.add("AMC", silk, {.name = "naive angle", .switches = {.tangent_angle = scene::TangentAngle::naive}});
-  writer.add("AMC", silk, {.name = "angle by fragment", .switches = {.tangent_angle = scene::TangentAngle::fragment}});
+  writer.add("AMC", silk,
+             {.name = "angle by fragment", .switches = {.tangent_angle = scene::TangentAngle::fragment}});
   writer.add("AMC", silk, {.name = "equation 4", .switches = {.perspective = scene::Perspective::equation4}});
   writer.add("AMC", silk, {.name = "maps", .maps = true});
 

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
-// A reflectance that the library does not know, with GLSL of its own, drawn through the installed library and compared
-// with its evaluator: Minnaert's moon, albedo / pi (n.l)^k (n.v)^(k - 1).
-#include <sateen/appearance/appearance.h>
-#include <sateen/core/error.h>
-#include <sateen/render/draw_picture.h>
-#include <sateen/scene/surface_images.h>
-
+// A reflectance that the library does not know, with GLSL of its own, drawn through the installed library and
+// compared with its evaluator: Minnaert's moon, albedo / pi (n.l)^k (n.v)^(k - 1).
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <numbers>
+
+#include <sateen/appearance/appearance.h>
+#include <sateen/core/error.h>
+#include <sateen/render/draw_picture.h>
+#include <sateen/scene/surface_images.h>
 
 namespace {
 
@@ -21,7 +21,8 @@ class Moon final : public appearance::Reflectance {
 
   class Seen final : public Point {
    public:
-    Seen(const appearance::Surface& s, double k) : normal_(s.normal), view_(std::max(s.normal.dot(s.view), 1e-3)), k_(k) {}
+    Seen(const appearance::Surface& s, double k)
+        : normal_(s.normal), view_(std::max(s.normal.dot(s.view), 1e-3)), k_(k) {}
     Vec3 lit(const Vec3& light) const override {
       const double cosine = std::max(normal_.dot(light), 0.0);
       return Vec3(0.5, 0.5, 0.6) * (std::pow(cosine, k_) * std::pow(view_, k_ - 1) / std::numbers::pi);
@@ -42,7 +43,9 @@ class Moon final : public appearance::Reflectance {
     double view_;
     double k_;
   };
-  std::unique_ptr<Point> at(const appearance::Surface& s) const override { return std::make_unique<Seen>(s, k_); }
+  std::unique_ptr<Point> at(const appearance::Surface& s) const override {
+    return std::make_unique<Seen>(s, k_);
+  }
 
   appearance::ShaderModule shader() const override {
     return {.texts = {{"moon.glsl", R"(
@@ -77,7 +80,8 @@ Mesh sheet() {
       const double x = 2.0 * i / kSide - 1;
       const double y = 2.0 * j / kSide - 1;
       mesh.positions.push_back(Vec3(x, y, 0).cast<float>());
-      mesh.normals.push_back(Vec3(0.6 * std::sin(4 * x), 0.5 * std::cos(3 * y), 1).normalized().cast<float>());
+      mesh.normals.push_back(
+          Vec3(0.6 * std::sin(4 * x), 0.5 * std::cos(3 * y), 1).normalized().cast<float>());
     }
   }
   const auto vertex = [](int i, int j) { return static_cast<std::uint32_t>(j * (kSide + 1) + i); };
@@ -114,7 +118,8 @@ int main() {
         if (!surface) continue;
         ++pixels;
         const Vec3 expected = scene.materials[0].appearance->radiance(*surface, scene.lighting);
-        largest = std::max(largest, (picture.colour.rgb(x, y).cast<double>() - expected).cwiseAbs().maxCoeff());
+        largest =
+            std::max(largest, (picture.colour.rgb(x, y).cast<double>() - expected).cwiseAbs().maxCoeff());
       }
     }
     std::printf("%d pixels, largest difference %g\n", pixels, largest);
