@@ -8,7 +8,7 @@
 #include <epoxy/gl.h>
 #include <fmt/format.h>
 
-#include "sateen/brdf/layered/layered.h"
+#include "sateen/brdf/research/slides.h"
 #include "sateen/core/direction.h"
 #include "sateen/gpu/context.h"
 #include "sateen/gpu/framebuffer.h"
@@ -33,21 +33,22 @@ std::vector<Case> cases() {
   brdf::LayeredMaterial fuzz;
   fuzz.fuzz = brdf::FuzzParameters{};
   fuzz.fuzz->tilt = radians(30);
-  brdf::LayeredMaterial slides = fuzz;
-  slides.fuzz_slides = true;
+  const brdf::SlidesMaterial slides{.layers = fuzz, .polynomials = true};
   brdf::LayeredMaterial both = fuzz;
   both.specular = ggx.specular;
-  brdf::LayeredMaterial simple;
-  simple.simple_fuzziness = 0.7;
+  const brdf::SlidesMaterial simple{.simple_fuzziness = 0.7};
   const auto look = [&](const brdf::LayeredMaterial& material) {
     return std::make_shared<brdf::LayeredAppearance>(material);
+  };
+  const auto printed = [](const brdf::SlidesMaterial& material) {
+    return std::make_shared<brdf::SlidesAppearance>(material);
   };
   return {{"constant colour", std::make_shared<scene::Constant>(Vec3::Ones())},
           {"anisotropic GGX", look(ggx)},
           {"fuzz, table", look(fuzz)},
-          {"fuzz, slides' polynomials", look(slides)},
+          {"fuzz, slides' polynomials", printed(slides)},
           {"fuzz over GGX", look(both)},
-          {"simplified fuzz", look(simple)}};
+          {"simplified fuzz", printed(simple)}};
 }
 
 void measure(const char* title, const light::Lighting& lighting) {

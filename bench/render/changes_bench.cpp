@@ -19,6 +19,7 @@
 #include "sateen/io/image.h"
 #include "sateen/light/environment.h"
 #include "sateen/matcap/decomposed_appearance.h"
+#include "sateen/matcap/sphere_disc.h"
 #include "sateen/render/renderer.h"
 #include "sateen/scene/load_scene.h"
 #include "support/analytic_material.h"
@@ -104,8 +105,9 @@ int main() {
   report_change("a colour of a layered material", satin,
                 [&](int i) { satin.material().set("base.color", Vec3(0.05 * i, 0.3, 0.2)); });
 
-  const auto matcap = std::make_shared<matcap::DecomposedAppearance>(matcap::unedited(matcap::decompose(
-      io::read_image(test::examples() / "matcaps" / "jade.exr"), {256, 256, 255.5}, {}, "jade")));
+  const Image ball = io::read_image(test::examples() / "matcaps" / "jade.exr");
+  const auto matcap = std::make_shared<matcap::DecomposedAppearance>(
+      matcap::unedited(matcap::decompose(ball, matcap::inscribed_disc(ball.width, ball.height), {}, "jade")));
   Stage decomposed(jacket(matcap), target);
   decomposed.frame([&] { matcap->set("turn_y", 1.0); });
   report_change("turning a decomposed MatCap's light", decomposed,

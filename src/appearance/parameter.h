@@ -18,16 +18,16 @@ using ParameterValue = std::variant<double, Vec3, bool, std::string>;
 /// from it.
 struct Parameter {
   enum class Kind { number, integer, color, flag, choice };
-  std::string name;  ///< the path in a material's JSON, "fuzz.density"
+  std::string name = {};  ///< the path in a material's JSON, "fuzz.density"
   Kind kind = Kind::number;
-  std::string unit;  ///< "degrees", "1/m"; empty: a ratio or none
-  double low = 0;    ///< smallest and largest value, of each channel for a colour
+  std::string unit = {};  ///< "degrees", "1/m"; empty: a ratio or none
+  double low = 0;         ///< smallest and largest value, of each channel for a colour
   double high = 1;
   bool low_open = false;  ///< the end itself is not allowed
   bool high_open = false;
   std::vector<std::string> choices = {};  ///< of Kind::choice
   ParameterValue standard = 0.0;          ///< the value where nothing is said
-  std::string help;                       ///< one line
+  std::string help = {};                  ///< one line
 };
 
 /// What would be right: "a number in [0, 100]", "one of sggx, schlick".

@@ -34,11 +34,11 @@ struct ShaderText {
 /// inside for baked light. An appearance with holes or depth declares `float ENTRY_cover(inout Surface s)`
 /// too: below 1/2 the surface is not there, and s may be changed.
 struct ShaderModule {
-  std::vector<ShaderText> texts;
-  ShaderDefines defines;
-  std::string entry;
-  std::string point;    ///< empty: baked light
-  bool covers = false;  ///< declares ENTRY_cover
+  std::vector<ShaderText> texts = {};
+  ShaderDefines defines = {};
+  std::string entry = {};
+  std::string point = {};  ///< empty: baked light
+  bool covers = false;     ///< declares ENTRY_cover
   bool operator==(const ShaderModule&) const = default;
 };
 
@@ -59,8 +59,8 @@ struct TextureBinding {
 
 /// What a module's uniforms and samplers hold; cheap to make and to bind again.
 struct ShaderValues {
-  std::vector<UniformBinding> uniforms;
-  std::vector<TextureBinding> textures;
+  std::vector<UniformBinding> uniforms = {};
+  std::vector<TextureBinding> textures = {};
 };
 
 }  // namespace sateen::appearance

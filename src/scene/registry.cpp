@@ -11,7 +11,7 @@
 #include "sateen/amc/amc_file.h"
 #include "sateen/amc/appearance.h"
 #include "sateen/appearance/json_reader.h"
-#include "sateen/brdf/layered/layered.h"
+#include "sateen/brdf/research/slides.h"
 #include "sateen/core/error.h"
 #include "sateen/io/file.h"
 #include "sateen/io/image.h"
@@ -47,7 +47,7 @@ const std::map<std::string, Loader>& ktx2_kinds() {
 const std::map<std::string, Parser>& models() {
   static const std::map<std::string, Parser> parsers{
       {"constant", Constant::parse},
-      {"layered", brdf::LayeredAppearance::parse},
+      {"layered", brdf::parse_layered},
       {"mapped", texture::MappedAppearance::parse},
       {"matcap-decomposition", matcap::DecomposedAppearance::parse},
   };

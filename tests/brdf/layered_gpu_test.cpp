@@ -54,8 +54,10 @@ TEST(LayeredOnGpu, FuzzOverGlossEqualsTheEvaluator) {
 
 TEST(LayeredOnGpu, TheSlidesFormsEqualTheEvaluator) {
   LayeredMaterial material = fuzzy();
-  material.fuzz_slides = true;
-  expect_gpu_agrees(material);
+  test::expect_matches_evaluator(
+      test::torus(),
+      std::make_shared<SlidesAppearance>(SlidesMaterial{.layers = material, .polynomials = true}), kTolerance,
+      {}, {}, everything());
 }
 
 /// A tangent-space normal map of waves.
@@ -104,8 +106,10 @@ TEST(LayeredOnGpu, FuzzWithAMapOfFibresEqualsTheEvaluator) {
 
 TEST(LayeredOnGpu, SimpleFuzzEqualsTheEvaluator) {
   LayeredMaterial material;
-  material.simple_fuzziness = 0.6;
-  expect_gpu_agrees(material);
+  test::expect_matches_evaluator(
+      test::torus(),
+      std::make_shared<SlidesAppearance>(SlidesMaterial{.layers = material, .simple_fuzziness = 0.6}),
+      kTolerance, {}, {}, everything());
 }
 
 }  // namespace

@@ -6,7 +6,7 @@
 #include <memory>
 #include <random>
 
-#include "sateen/brdf/layered/layered.h"
+#include "sateen/brdf/research/slides.h"
 #include "support/sky.h"
 
 namespace sateen::test {
@@ -60,13 +60,15 @@ inline brdf::LayeredMaterial glossy() {
 
 /// A material under light.
 struct Lit {
-  brdf::LayeredAppearance appearance;
+  std::shared_ptr<appearance::Appearance> appearance;
   light::Lighting lighting;
   Lit(brdf::LayeredMaterial material, light::Lighting light)
-      : appearance(std::move(material)), lighting(std::move(light)) {}
-  Vec3 evaluate(const appearance::Surface& surface) const {
-    return appearance.radiance(surface, lighting, {});
-  }
+      : appearance(std::make_shared<brdf::LayeredAppearance>(std::move(material))),
+        lighting(std::move(light)) {}
+  Lit(brdf::SlidesMaterial material, light::Lighting light)
+      : appearance(std::make_shared<brdf::SlidesAppearance>(std::move(material))),
+        lighting(std::move(light)) {}
+  Vec3 evaluate(const appearance::Surface& surface) const { return appearance->radiance(surface, lighting); }
 };
 
 /// A surface point facing the viewer's z axis, seen from `view`.

@@ -56,8 +56,7 @@ TEST(Layered, FuzzInUniformLightIsItsIntegral) {
   material.base.color = Vec3::Zero();
   material.fuzz->colour = Vec3::Ones();
   const Lit table(material, uniform_light());
-  material.fuzz_slides = true;
-  const Lit slides(material, uniform_light());
+  const Lit slides(SlidesMaterial{.layers = material, .polynomials = true}, uniform_light());
   double worst_table = 0;
   double worst_slides = 0;
   for (int i = 0; i < 60; ++i) {
@@ -178,9 +177,7 @@ TEST(Layered, SurroundingsAreCloseToTheIntegralOfTheBrdf) {
   const Lit gloss_look(gloss, lighting);
   const Lit fuzz_look(fuzz, lighting);
   const Lit fibre_look(fibres, lighting);
-  LayeredMaterial slides = fuzz;
-  slides.fuzz_slides = true;
-  const Lit slides_look(slides, lighting);
+  const Lit slides_look(SlidesMaterial{.layers = fuzz, .polynomials = true}, lighting);
   // The sky as its nine coefficients see it: what is left of the error there is the lobe's, not the bands'.
   Image bands = light;
   for (int y = 0; y < bands.height; ++y) {
@@ -267,10 +264,8 @@ TEST(Layered, SpecularProbesUnderFuzzAreCloseToTheIntegral) {
     material.specular = GgxParameters{roughness, {0.9, 0.6, 0.3}, false};
     LayeredMaterial bare = material;
     bare.specular.reset();
-    LayeredMaterial slides = material;
-    slides.fuzz_slides = true;
-    LayeredMaterial bare_slides = bare;
-    bare_slides.fuzz_slides = true;
+    const SlidesMaterial slides{.layers = material, .polynomials = true};
+    const SlidesMaterial bare_slides{.layers = bare, .polynomials = true};
     const Lit looks[2][2] = {{Lit(material, lighting), Lit(bare, lighting)},
                              {Lit(slides, lighting), Lit(bare_slides, lighting)}};
     double errors[2] = {0, 0};
@@ -332,8 +327,7 @@ TEST(Layered, AnisotropyStaysVisibleInAmbientLightAlone) {
     return *std::ranges::max_element(radiance) / *std::ranges::min_element(radiance);
   };
   const auto shaded = [&](bool slides) {
-    material.fuzz_slides = slides;
-    const Lit appearance(material, uniform_light());
+    const Lit appearance(SlidesMaterial{.layers = material, .polynomials = slides}, uniform_light());
     std::array<double, 3> radiance{};
     for (std::size_t i = 0; i < 3; ++i) {
       appearance::Surface surface = flat(v);

@@ -44,11 +44,6 @@ void bind_fuzz(const LayeredMaterial& material, const FuzzTables& tables,
   }
   set(values, "fuzz_fibre", narrow(fuzz.fibre()));
   set_axis(values, "fuzz_axis", fuzz.azimuth);
-  if (material.fuzz_slides) {
-    const std::vector<double>& c = tables.polynomial.coefficients;
-    set(values, "fuzz_down_low", narrow(Vec3(c[0], c[1], c[2])));
-    set(values, "fuzz_down_high", narrow(Vec3(c[3], c[4], c[5])));
-  }
   set(values, "fuzz_table_along", Vec2f(tables.table.ambient.along_coordinate().cast<float>()));
   set_texture(values, "fuzz_down_table", tables.down);
   set_texture(values, "fuzz_ambient_table", tables.ambient);
@@ -79,12 +74,10 @@ appearance::ShaderModule LayeredAppearance::shader() const {
   switched("LAYERED_REFLECTION", material_.specular.has_value());
   switched("LAYERED_COMPENSATION", compensated);
   switched("LAYERED_FUZZ", material_.fuzz.has_value());
-  switched("LAYERED_SIMPLE_FUZZ", material_.simple_fuzziness > 0);
   if (!material_.fuzz) return module;
   module.defines.emplace_back("LAYERED_FUZZ_PHASE", phase_define(material_.fuzz->phase));
   switched("LAYERED_FUZZ_DOWN", material_.fuzz_scattered_down);
   switched("LAYERED_FUZZ_SMOOTHING", material_.fuzz_smoothing > 0);
-  switched("LAYERED_FUZZ_SLIDES", material_.fuzz_slides);
   switched("LAYERED_FIBRE_MAP", material_.fuzz_fibres.has_value());
   return module;
 }
@@ -92,7 +85,6 @@ appearance::ShaderModule LayeredAppearance::shader() const {
 appearance::ShaderValues LayeredAppearance::values() const {
   appearance::ShaderValues values;
   bind_base(material_.base, bands_under_fuzz(material_, *tables_), values);
-  brdf::set(values, "simple_fuzziness", material_.simple_fuzziness);
   if (material_.specular) bind_reflection(material_, *tables_->ggx, values);
   if (material_.fuzz) bind_fuzz(material_, *tables_->fuzz, fibres_, values);
   return values;

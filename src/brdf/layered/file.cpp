@@ -69,17 +69,13 @@ std::unique_ptr<LayeredAppearance> LayeredAppearance::parse(const std::string& t
       for (const char* key : {"tilt", "azimuth"}) {
         if (fuzz.has(key)) fuzz.fail(key, "left out where \"fibres\" is given");
       }
-      if (material.fuzz_slides) fuzz.fail("approximation", "\"table\" where \"fibres\" is given");
       material.fuzz_fibres = read_fibres(fuzz, path.parent_path());
     }
-    fuzz.allow({"fibres"});
+    fuzz.allow({"fibres", "approximation"});
     fuzz.finish();
   }
   read_section(json, "", material);
-  if (material.fuzz && material.simple_fuzziness > 0) {
-    json.fail("simple_fuzziness", "left out where \"fuzz\" is given");
-  }
-  json.allow({"base", "specular", "fuzz", "lights", "environment", "ambient"});
+  json.allow({"base", "specular", "fuzz", "lights", "environment", "ambient", "simple_fuzziness"});
   json.finish();
   return std::make_unique<LayeredAppearance>(std::move(material));
 }

@@ -24,8 +24,9 @@ class LayeredAppearance final : public appearance::Reflectance {
   explicit LayeredAppearance(LayeredMaterial material);
   ~LayeredAppearance() override;
 
-  /// A material from JSON text with "model": "layered" and, which are left to others, lighting keys; `path`
-  /// is what messages call it and where its pictures lie. Throws Error naming file, key and value.
+  /// A material from JSON text with "model": "layered" and, which are left to others, lighting keys and those
+  /// of research/slides.h; `path` is what messages call it and where its pictures lie. Throws Error naming
+  /// file, key and value.
   static std::unique_ptr<LayeredAppearance> parse(const std::string& json, const std::filesystem::path& path);
 
   std::unique_ptr<Point> at(const appearance::Surface& surface) const override;
@@ -40,6 +41,7 @@ class LayeredAppearance final : public appearance::Reflectance {
 
   /// What is shown now.
   const LayeredMaterial& material() const { return material_; }
+  const LayeredTables& tables() const { return *tables_; }
 
  private:
   void start();

@@ -54,15 +54,6 @@ Fields make_fields() {
   add_layer<FuzzParameters>(
       fields, "fuzz", fuzz_parameters(), [](const LayeredMaterial& m) { return m.fuzz ? &*m.fuzz : nullptr; },
       [](LayeredMaterial& m) -> FuzzParameters& { return m.fuzz ? *m.fuzz : m.fuzz.emplace(); });
-  fields.push_back({{.name = "fuzz.approximation",
-                     .kind = Parameter::Kind::choice,
-                     .choices = {"table", "slides"},
-                     .standard = std::string("table"),
-                     .help = "how the integrals are kept: tables, or the slides' polynomials"},
-                    [](const LayeredMaterial& m) { return std::string(m.fuzz_slides ? "slides" : "table"); },
-                    [](LayeredMaterial& m, const ParameterValue& v) {
-                      m.fuzz_slides = std::get<std::string>(v) == "slides";
-                    }});
   fields.push_back(
       {{.name = "fuzz.scattered_down",
         .kind = Parameter::Kind::flag,
@@ -75,10 +66,6 @@ Fields make_fields() {
         .help = "the fuzz's normal, from the normal map's (0) to the mesh's (1)"},
        [](const LayeredMaterial& m) { return m.fuzz_smoothing; },
        [](LayeredMaterial& m, const ParameterValue& v) { m.fuzz_smoothing = std::get<double>(v); }});
-  fields.push_back(
-      {{.name = "simple_fuzziness", .help = "weight of the slides' simplified fuzz; not with fuzz"},
-       [](const LayeredMaterial& m) { return m.simple_fuzziness; },
-       [](LayeredMaterial& m, const ParameterValue& v) { m.simple_fuzziness = std::get<double>(v); }});
   return fields;
 }
 

@@ -32,19 +32,14 @@ struct LayeredMaterial {
   int lobe_samples = 0;
 
   std::optional<FuzzParameters> fuzz;
-  std::optional<FibreMap> fuzz_fibres;  ///< in place of the fuzz's tilt and azimuth; not with fuzz_slides
-  bool fuzz_slides = false;         ///< the slides' polynomials in place of the table (fuzz_approximations.h)
-  bool fuzz_scattered_down = true;  ///< off: P_s = 0 under the base layer, the slides' comparison
+  std::optional<FibreMap> fuzz_fibres;  ///< in place of the fuzz's tilt and azimuth
+  bool fuzz_scattered_down = true;      ///< off: P_s = 0 under the base layer, the slides' comparison
   /// Turns the fuzz's normal from the shading normal (0) to the mesh's without normal map (1): softer fuzz
   /// over a detailed base. The slides' "normal smoothing".
   double fuzz_smoothing = 0;
-
-  /// Weight of the slides' simplified deferred fuzz, [0, 1]: in place of the base's diffuse light, fixed
-  /// parameters, wrapped lighting. Not together with `fuzz`.
-  double simple_fuzziness = 0;
 };
 
-/// Its parameters by their JSON paths: "base.color", "specular.alpha_t", "fuzz.density", "simple_fuzziness".
+/// Its parameters by their JSON paths: "base.color", "specular.alpha_t", "fuzz.density".
 /// Setting one of a layer that is not there adds the layer.
 std::span<const appearance::ParameterField<LayeredMaterial>> layered_parameters();
 

@@ -4,21 +4,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sateen/brdf/fuzz_approximations.h"
 #include "sateen/brdf/ggx_surroundings.h"
-#include "sateen/brdf/layered/simple_fuzz.h"
 #include "sateen/core/colour.h"
 
 namespace sateen::brdf {
 namespace {
-
-using Bands = std::array<double, 3>;
-
-LightBands bands_of(const LayeredMaterial& material, const Bands& passing, const Bands& scattered) {
-  const Vec3 colour = material.fuzz && material.fuzz_scattered_down ? material.fuzz->colour : Vec3::Zero();
-  LightBands bands;
-  for (std::size_t l = 0; l < 3; ++l) bands[l] = Vec3::Constant(passing[l]) + colour * scattered[l];
-  return bands;
-}
 
 Vec3 fuzz_normal(const LayeredMaterial& material, const appearance::Surface& surface) {
   if (material.fuzz_smoothing == 0) return surface.normal;
@@ -29,6 +20,14 @@ Vec3 fuzz_normal(const LayeredMaterial& material, const appearance::Surface& sur
 
 }  // namespace
 
+LightBands bands_of(const LayeredMaterial& material, const std::array<double, 3>& passing,
+                    const std::array<double, 3>& scattered) {
+  const Vec3 colour = material.fuzz && material.fuzz_scattered_down ? material.fuzz->colour : Vec3::Zero();
+  LightBands bands;
+  for (std::size_t l = 0; l < 3; ++l) bands[l] = Vec3::Constant(passing[l]) + colour * scattered[l];
+  return bands;
+}
+
 int lobe_lookups(const LayeredMaterial& material) {
   if (material.lobe_samples > 0 || !material.specular) return std::max(1, material.lobe_samples);
   return material.specular->roughness.alpha_t == material.specular->roughness.alpha_b ? 1 : 8;
@@ -36,14 +35,7 @@ int lobe_lookups(const LayeredMaterial& material) {
 
 LightBands bands_under_fuzz(const LayeredMaterial& material, const LayeredTables& tables) {
   if (!material.fuzz || material.fuzz_fibres) return bare_bands();
-  const FuzzTable& table = tables.fuzz->table;
-  if (!material.fuzz_slides) return bands_of(material, table.passing_bands, table.scattered_bands);
-  const double q = fuzz_passing_albedo_slides(material.fuzz->density);
-  Bands passing = FuzzTable().passing_bands;
-  Bands scattered = passing;
-  for (double& band : scattered) band *= table.scattered_down_mean * (1 - q);
-  for (double& band : passing) band *= q;
-  return bands_of(material, passing, scattered);
+  return bands_of(material, tables.fuzz->table.passing_bands, tables.fuzz->table.scattered_bands);
 }
 
 LayeredPoint::LayeredPoint(const LayeredMaterial& material, const LayeredTables& tables,
@@ -68,19 +60,22 @@ double LayeredPoint::ggx_total(const Vec3& direction) const {
   return read.x() + read.y();
 }
 
+Vec3 LayeredPoint::base_lit(const Vec3& light) const {
+  return diffuse_lit(material_.base, light);
+}
+
+Vec3 LayeredPoint::base_surroundings(const light::SphericalHarmonics9& light) const {
+  return diffuse_surroundings(material_.base, light, frame_.axes, bands_);
+}
+
 double LayeredPoint::scattered_down(const Vec3& light) const {
-  if (material_.fuzz_slides) return tables_.fuzz->polynomial(light, fuzz_);
   if (tables_.fuzz->tilts) return tables_.fuzz->tilts->scattered_down(fuzz_.fibre(), light);
   return tables_.fuzz->table.scattered_down(turned(light, fuzz_.azimuth)).x();
 }
 
 Vec3 LayeredPoint::lit(const Vec3& towards) const {
   const Vec3 light = frame_.into(towards);
-  Vec3 base = diffuse_lit(material_.base, light);
-  if (material_.simple_fuzziness > 0) {
-    base = (1 - material_.simple_fuzziness) * base +
-           material_.simple_fuzziness * simple_fuzz_lit(material_.base.color, light, frame_.view);
-  }
+  Vec3 base = base_lit(light);
   if (light.z() > 0 && material_.specular) {
     const GgxParameters& ggx = *material_.specular;
     Vec3 f = ggx_brdf(ggx.roughness, ggx.f0, light, frame_.view);
@@ -118,10 +113,6 @@ Vec3 LayeredPoint::reflected_surroundings(const light::Surroundings& surrounding
 
 Vec3 LayeredPoint::fuzz_surroundings(const light::SphericalHarmonics9& light) const {
   const double visibility = fuzz_visibility_slides(fuzz_.density, fuzz_frame_.view.z());
-  if (material_.fuzz_slides) {
-    return fuzz_.colour.cwiseProduct(light.hemisphere_mean(fuzz_frame_.axes.col(2))) *
-           (visibility * (1 - scattered_down(fuzz_frame_.view)));
-  }
   const Vec3 local = turned(fuzz_frame_.view, fuzz_.azimuth);
   const Vec4 ambient = tables_.fuzz->tilts ? tables_.fuzz->tilts->ambient(fuzz_.fibre(), fuzz_frame_.view)
                                            : tables_.fuzz->table.ambient(local);
@@ -136,12 +127,7 @@ Vec3 LayeredPoint::fuzz_surroundings(const light::SphericalHarmonics9& light) co
 
 Vec3 LayeredPoint::surroundings(const light::Surroundings& surroundings) const {
   const light::SphericalHarmonics9& light = surroundings.harmonics;
-  Vec3 base = diffuse_surroundings(material_.base, light, frame_.axes, bands_);
-  if (material_.simple_fuzziness > 0) {
-    const Vec3 fuzz = simple_fuzz_surroundings(material_.base.color,
-                                               light.hemisphere_mean(frame_.axes.col(2)), frame_.view);
-    base = (1 - material_.simple_fuzziness) * base + material_.simple_fuzziness * fuzz;
-  }
+  Vec3 base = base_surroundings(light);
   if (material_.specular && surroundings.environment) base += reflected_surroundings(surroundings);
   if (!material_.fuzz) return base;
   return base * fuzz_passing(material_.fuzz->density, fuzz_frame_.view) + fuzz_surroundings(light);

@@ -21,7 +21,7 @@ bool fuzz_fits(const LayeredTables& tables, const LayeredMaterial& material) {
   const FuzzParameters& b = *material.fuzz;
   const bool map = material.fuzz_fibres.has_value();
   return a.density == b.density && a.alpha == b.alpha && a.k == b.k && a.phase == b.phase &&
-         tables.fuzz->map == map && (map || a.tilt == b.tilt) && tables.fuzz->slides == material.fuzz_slides;
+         tables.fuzz->map == map && (map || a.tilt == b.tilt);
 }
 
 }  // namespace
@@ -38,7 +38,7 @@ GgxTables::GgxTables(const AnisotropicRoughness& roughness)
 }
 
 FuzzTables::FuzzTables(const LayeredMaterial& material)
-    : fuzz(*material.fuzz), map(material.fuzz_fibres.has_value()), slides(material.fuzz_slides) {
+    : fuzz(*material.fuzz), map(material.fuzz_fibres.has_value()) {
   if (map) {
     tilts = std::make_shared<const FuzzTiltTable>(fuzz);
     down = tilts->down_texture();
@@ -49,7 +49,6 @@ FuzzTables::FuzzTables(const LayeredMaterial& material)
   table = make_fuzz_table(fuzz);
   down = table.scattered_down.texture(true);
   ambient = table.ambient.texture();
-  if (slides) polynomial = fit_scattered_down(fuzz, ScatteredDownPolynomial::kSlidesDegree);
 }
 
 bool fits(const LayeredTables& tables, const LayeredMaterial& material) {

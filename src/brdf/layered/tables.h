@@ -3,7 +3,6 @@
 
 #include <memory>
 
-#include "sateen/brdf/fuzz_approximations.h"
 #include "sateen/brdf/fuzz_table.h"
 #include "sateen/brdf/fuzz_tilt_table.h"
 #include "sateen/brdf/hemisphere_table.h"
@@ -26,10 +25,8 @@ struct GgxTables {
 struct FuzzTables {
   FuzzParameters fuzz;  ///< made for these; colour and azimuth play no part
   bool map = false;     ///< fibres of every tilt
-  bool slides = false;
-  FuzzTable table;  ///< of the one fibre, unless there is a map
+  FuzzTable table;      ///< of the one fibre, unless there is a map
   std::shared_ptr<const FuzzTiltTable> tilts;
-  ScatteredDownPolynomial polynomial;
   std::shared_ptr<const TextureData> down;     ///< of `table`, or the volume over tilts
   std::shared_ptr<const TextureData> ambient;  ///< likewise
   std::shared_ptr<const TextureData> bands;    ///< of the tilts

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "sateen/brdf/layered/simple_fuzz.h"
+#include "sateen/brdf/research/simple_fuzz.h"
 
 #include <algorithm>
 #include <cmath>
