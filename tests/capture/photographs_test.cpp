@@ -14,8 +14,6 @@
 #include "capture/simulated_exif.h"
 #include "capture/simulator.h"
 #include "sateen/capture/capture.h"
-#include "sateen/capture/sphere/first_look.h"
-#include "sateen/capture/sphere/stand.h"
 #include "sateen/core/direction.h"
 #include "sateen/core/error.h"
 #include "sateen/io/file.h"
@@ -122,22 +120,17 @@ TEST(CapturePhotographs, LightBelowZeroIsDark) {
 
 constexpr int kLarge = 4;
 
-/// The simulation's pictures enlarged so that every pixel becomes kLarge x kLarge, cut off after `width`: in
-/// these the sphere is looked for at half the size.
-void write_enlarged(const Simulation& s, const std::filesystem::path& folder, int width) {
+/// What is said of the simulation's pictures enlarged so that every pixel becomes kLarge x kLarge: in these
+/// the sphere is looked for at half the size.
+std::string complaint_of_enlarged(const Simulation& s) {
+  const TemporaryFolder folder;
   for (int i = 0; i < s.frames; ++i) {
     io::Picture8 picture = s.render(i);
     const cv::Mat pixels(picture.height, picture.width, CV_8UC3, picture.rgb.data());
     cv::Mat large;
     cv::resize(pixels, large, {}, kLarge, kLarge, cv::INTER_NEAREST);
-    cv::imwrite(folder / fmt::format("shot_{:03}.jpg", i), large.colRange(0, width));
+    cv::imwrite(folder / fmt::format("shot_{:03}.jpg", i), large);
   }
-}
-
-/// What is said of them.
-std::string complaint_of_enlarged(const Simulation& s) {
-  const TemporaryFolder folder;
-  write_enlarged(s, folder.path(), kLarge * s.width);
   try {
     build_capture({folder.path()}, test::small_options(s));
   } catch (const Error& error) {
@@ -153,29 +146,6 @@ std::vector<double> numbers_in(const std::string& text) {
   for (std::sregex_iterator i(text.begin(), text.end(), number); i != std::sregex_iterator(); ++i)
     numbers.push_back(std::stod(i->str()));
   return numbers;
-}
-
-TEST(CapturePhotographs, AStandIsFoundWhereTheWidthIsOdd) {
-  Simulation s = test::small_simulation(14);
-  s.covered = true;  // below the sphere's middle
-  s.wobble = {2, 1};
-  const TemporaryFolder folder;
-  const int width = kLarge * s.width - 1;
-  write_enlarged(s, folder.path(), width);
-  FrameSource source = FrameSource::open({folder.path()}, {});
-  const Lens lens{Camera::pinhole(width, source.height(), kLarge * s.focal), FocalSource::field_of_view, {}};
-  const StillMask stand = find_stand(first_look(source, lens, {})).mask;
-  EXPECT_EQ(stand.width, width / 2);
-  const auto hides = [&](double across, double down) {
-    const Vec2f at = (kLarge * (s.centre + s.radius * Vec2(across, down))).cast<float>();
-    return stand.hides(at.x(), at.y());
-  };
-  for (const double down : {0.65, 0.75, 0.85}) {
-    EXPECT_TRUE(hides(0, down)) << down;
-    EXPECT_FALSE(hides(-0.3, down)) << down;
-    EXPECT_FALSE(hides(0.3, down)) << down;
-  }
-  EXPECT_FALSE(hides(0, 0.2));
 }
 
 TEST(CapturePhotographs, OneOfAnotherSizeIsNamedWithBothSizes) {
