@@ -61,7 +61,7 @@ std::unique_ptr<appearance::Appearance> load(const Loaders& loaders, const std::
 }
 
 std::unique_ptr<appearance::Appearance> load_ktx2(const fs::path& path) {
-  const auto metadata = io::read_ktx2(path).metadata;
+  const auto metadata = io::read_ktx2_info(path).metadata;
   const auto kind = metadata.find("sateen.kind");
   if (kind == metadata.end()) {
     throw Error(fmt::format("{}: is a texture but none that Sateen made; \"sateen amc build\" makes one",
