@@ -40,12 +40,14 @@ struct Tiff {
     constexpr unsigned kShort = 3;
     constexpr unsigned kLong = 4;
     constexpr unsigned kRational = 5;
+    constexpr unsigned kDirectory = 13;
     switch (number(at + 2, 2)) {
       case kByte:
         return number(at + 8, 1);
       case kShort:
         return number(at + 8, 2);
       case kLong:
+      case kDirectory:
         return number(at + 8, 4);
       case kRational: {
         const std::size_t ratio = number(at + 8, 4);

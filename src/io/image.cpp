@@ -10,6 +10,7 @@
 
 #include "sateen/core/colour.h"
 #include "sateen/core/error.h"
+#include "sateen/io/colour_conversion.h"
 #include "sateen/io/file_error.h"
 #include "sateen/io/picture_formats.h"
 #include "sateen/io/sample_values.h"
@@ -102,7 +103,8 @@ bool has_alpha(const PictureHeader& header) {
   return header.alpha == channels - 1 && (channels == 2 || channels == 4);
 }
 
-Decoded decode(const fs::path& path, const ReadImageOptions& options) {
+/// `as_light`: colours are converted by what the file says of them.
+Decoded decode(const fs::path& path, const ReadImageOptions& options, bool as_light) {
   const auto source = open_picture(path);
   const PictureHeader& header = source->header();
   const ImageInfo info = info_of(header);
@@ -112,8 +114,10 @@ Decoded decode(const fs::path& path, const ReadImageOptions& options) {
                            region.height, region.x, region.y, info.width, info.height));
   }
   const bool integer = !header.floating;
-  const bool srgb =
-      options.encoding == Encoding::srgb || (options.encoding == Encoding::automatic && integer);
+  const bool other_colours =
+      as_light && options.encoding == Encoding::automatic && says_other_colours(header);
+  const bool srgb = options.encoding == Encoding::srgb ||
+                    (options.encoding == Encoding::automatic && integer && !other_colours);
   const SampleValues values(header, srgb);
   const PixelRect stored{0, 0, header.width, header.height};
   const PixelRect window = window_of(header);
@@ -128,6 +132,7 @@ Decoded decode(const fs::path& path, const ReadImageOptions& options) {
   }
   if (!options.allow_non_finite && !integer) check_finite(path, result.image, region);
   if (srgb && !integer) result.image = srgb_decoded(std::move(result.image));
+  if (other_colours) result.image = to_linear_rec709(std::move(result.image), header, path.string());
   return result;
 }
 
@@ -155,13 +160,13 @@ ImageInfo read_image_info(const fs::path& path) {
 }
 
 Image read_image(const fs::path& path, const ReadImageOptions& options) {
-  Decoded decoded = decode(path, options);
+  Decoded decoded = decode(path, options, true);
   if (decoded.multiply) multiply_by_alpha(decoded.image);
   return std::move(decoded.image);
 }
 
 Image read_data(const fs::path& path, bool allow_non_finite) {
-  return decode(path, {.encoding = Encoding::linear, .allow_non_finite = allow_non_finite}).image;
+  return decode(path, {.encoding = Encoding::linear, .allow_non_finite = allow_non_finite}, false).image;
 }
 
 }  // namespace sateen::io

@@ -1,4 +1,8 @@
 // SPDX-License-Identifier: MIT
+#include <cstring>
+
+#include <fmt/format.h>
+
 #include "sateen/io/exif.h"
 #include "sateen/io/picture_codecs.h"
 #include "sateen/io/png_escape.h"
@@ -11,6 +15,30 @@ struct Decoder {
   png_infop info = nullptr;
   ~Decoder() { png_destroy_read_struct(&png, &info, nullptr); }
 };
+
+/// The colours that the code points of ITU-T H.273 name.
+StoredColour coded_colour(int primaries, int transfer) {
+  constexpr int kBt709 = 1;
+  constexpr int kUnspecified = 2;
+  constexpr int kBt2020 = 9;
+  constexpr int kP3 = 12;
+  constexpr int kLinear = 8;
+  constexpr int kSrgb = 13;
+  StoredColour colour;
+  if (primaries == kBt2020) {
+    colour.chromaticities = Chromaticities{{0.708, 0.292, 0.170, 0.797, 0.131, 0.046, 0.3127, 0.3290}};
+  } else if (primaries == kP3) {
+    colour.chromaticities = Chromaticities{{0.680, 0.320, 0.265, 0.690, 0.150, 0.060, 0.3127, 0.3290}};
+  } else if (primaries != kBt709 && primaries != kUnspecified) {
+    colour.ignored.push_back(fmt::format("set of primaries (code point {})", primaries));
+  }
+  if (transfer == kLinear) {
+    colour.gamma = 1;
+  } else if (transfer != kSrgb && transfer != kUnspecified) {
+    colour.ignored.push_back(fmt::format("transfer function (code point {})", transfer));
+  }
+  return colour;
+}
 
 class PngSource final : public PictureSource {
  public:
@@ -49,6 +77,8 @@ class PngSource final : public PictureSource {
   void read_header() {
     png_structp png = decoder_.png;
     png_infop info = decoder_.info;
+    png_byte cicp[] = "cICP";
+    png_set_keep_unknown_chunks(png, PNG_HANDLE_CHUNK_ALWAYS, cicp, 1);
     png_init_io(png, bytes_.stream.get());
     png_read_info(png, info);
     // 1, 2 and 4 bits become 8, palettes colours, a transparent colour alpha.
@@ -89,6 +119,17 @@ class PngSource final : public PictureSource {
     std::array<double, 8> xy{};
     if (png_get_cHRM(png, info, &xy[6], &xy[7], &xy[0], &xy[1], &xy[2], &xy[3], &xy[4], &xy[5]) != 0) {
       colour.chromaticities = Chromaticities{xy};
+    }
+    read_code_points();
+  }
+
+  /// cICP goes before every other chunk about colour, and libpng 1.6 does not know it.
+  void read_code_points() {
+    png_unknown_chunkp chunks = nullptr;
+    const int count = png_get_unknown_chunks(decoder_.png, decoder_.info, &chunks);
+    for (int i = 0; i < count; ++i) {
+      if (std::memcmp(chunks[i].name, "cICP", 4) == 0 && chunks[i].size == 4)
+        header_.colour = coded_colour(chunks[i].data[0], chunks[i].data[1]);
     }
   }
 

@@ -47,7 +47,7 @@ std::vector<float> samples(int width, int height, int channels) {
 bool write(const fs::path& path, OIIO::ImageSpec spec, bool tiled = false) {
   auto out = OIIO::ImageOutput::create(path.string());
   if (tiled) spec.tile_width = spec.tile_height = 16;
-  if (!out || !out->open(path.string(), spec)) {
+  if (!out || (tiled && out->supports("tiles") == 0) || !out->open(path.string(), spec)) {
     static_cast<void>(OIIO::geterror());
     return false;
   }
