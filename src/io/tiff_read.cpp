@@ -33,7 +33,7 @@ class TiffSource final : public PictureSource {
     header_.height = static_cast<int>(std::min<std::uint32_t>(tiff_.tag(TIFFTAG_IMAGELENGTH, 0u), INT32_MAX));
     if (tiff_.tag(TIFFTAG_IMAGEDEPTH, 1u) > 1) fail(bytes_.name, "is a volume, a flat picture is needed");
     header_.channels = storage_.photometric == PHOTOMETRIC_PALETTE ? 3 : storage_.samples;
-    header_.bits = storage_.bits;
+    header_.bits = storage_.photometric == PHOTOMETRIC_PALETTE ? 8 : storage_.bits;
     header_.floating = storage_.bits == 32;
     header_.samples = storage_.bits == 32   ? SampleType::f32
                       : storage_.bits == 16 ? SampleType::u16

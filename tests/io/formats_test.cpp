@@ -114,6 +114,7 @@ TEST(Formats, EverySampleTypeAndChannelCountIsReadAsOpenImageIoReadsIt) {
     for (const OIIO::TypeDesc& type : types) {
       for (const int channels : {1, 2, 3, 4, 6}) {
         for (const bool tiled : {false, true}) {
+          if (tiled && type == OIIO::TypeDesc::DOUBLE) continue;  // OpenImageIO 2.4 writes values that are none
           const fs::path path =
               folder / fmt::format("{}_{}{}{}", type.c_str(), channels, tiled ? "_tiled" : "", extension);
           OIIO::ImageSpec spec(37, 43, channels, type);
@@ -190,6 +191,8 @@ TEST(Formats, TiffsOfOtherPrograms) {
     for (const int bits : {1, 2, 4, 8, 16}) {
       for (const int photometric : {PHOTOMETRIC_MINISBLACK, PHOTOMETRIC_MINISWHITE, PHOTOMETRIC_PALETTE}) {
         if (photometric == PHOTOMETRIC_PALETTE && bits == 16) continue;
+        // OpenImageIO 2.4 forgets that 0 is white there.
+        if (photometric == PHOTOMETRIC_MINISWHITE && bits == 16) continue;
         const fs::path path = folder / fmt::format("{}_{}_{}.tif", mode, bits, photometric);
         write_tiff(path, mode, bits, static_cast<std::uint16_t>(photometric), 1);
         expect_as_openimageio(path);
