@@ -114,7 +114,8 @@ TEST(Formats, EverySampleTypeAndChannelCountIsReadAsOpenImageIoReadsIt) {
     for (const OIIO::TypeDesc& type : types) {
       for (const int channels : {1, 2, 3, 4, 6}) {
         for (const bool tiled : {false, true}) {
-          if (tiled && type == OIIO::TypeDesc::DOUBLE) continue;  // OpenImageIO 2.4 writes values that are none
+          if (tiled && type == OIIO::TypeDesc::DOUBLE)
+            continue;  // OpenImageIO 2.4 writes values that are none
           const fs::path path =
               folder / fmt::format("{}_{}{}{}", type.c_str(), channels, tiled ? "_tiled" : "", extension);
           OIIO::ImageSpec spec(37, 43, channels, type);
@@ -407,7 +408,7 @@ TEST(Formats, WebpIsWrittenWithoutLoss) {
     EXPECT_EQ(
         read_image(folder / "a.webp").data,
         (channels == 1 ? with_channels(read_image(folder / "a.png"), 3) : read_image(folder / "a.png")).data);
-    expect_as_openimageio(folder / "a.webp");
+    if (channels < 4) expect_as_openimageio(folder / "a.webp");  // which multiplies by alpha unasked
   }
   const auto bytes = read_bytes(folder / "a.webp");
   EXPECT_EQ(read_data_from_memory(bytes, "a.webp").data, read_data(folder / "a.webp").data);
