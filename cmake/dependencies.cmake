@@ -8,10 +8,13 @@ find_package(assimp REQUIRED)
 find_package(JPEG REQUIRED)
 # Debian 12 has version 3, Ubuntu 24.04 version 4.
 find_package(embree REQUIRED)
-find_package(OpenCV REQUIRED COMPONENTS core imgproc imgcodecs videoio calib3d)
+find_package(OpenCV REQUIRED COMPONENTS core imgproc calib3d)
 find_package(PkgConfig REQUIRED)
-# OpenImageIO's own CMake config needs the tools package; pkg-config does not.
-pkg_check_modules(OIIO REQUIRED IMPORTED_TARGET OpenImageIO)
+pkg_check_modules(PNG REQUIRED IMPORTED_TARGET libpng)
+pkg_check_modules(EXR REQUIRED IMPORTED_TARGET OpenEXR)
+pkg_check_modules(TIFF REQUIRED IMPORTED_TARGET libtiff-4)
+pkg_check_modules(WEBP REQUIRED IMPORTED_TARGET libwebp)
+pkg_check_modules(LCMS REQUIRED IMPORTED_TARGET lcms2)
 pkg_check_modules(ZSTD REQUIRED IMPORTED_TARGET libzstd)
 # Its pkg-config file in Debian names paths that do not exist.
 find_library(SQUISH_LIBRARY squish REQUIRED)

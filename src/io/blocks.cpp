@@ -6,11 +6,10 @@
 #include <cstring>
 #include <vector>
 
-#include <OpenImageIO/filesystem.h>
-#include <OpenImageIO/imageio.h>
 #include <fmt/format.h>
 
 #include "sateen/core/error.h"
+#include "sateen/io/module.h"
 
 namespace sateen::io {
 namespace {
@@ -56,13 +55,16 @@ Image decode_blocks(VkFormat format, std::span<const std::byte> blocks, int widt
   }
   const std::vector<std::byte> file =
       dds(format == VkFormat::bc5_unorm ? kDxgiBc5 : kDxgiBc7, blocks, width, height);
-  OIIO::Filesystem::IOMemReader memory(const_cast<std::byte*>(file.data()), file.size());
-  const auto input = OIIO::ImageInput::open("blocks.dds", nullptr, &memory);
-  if (!input) throw Error(fmt::format("{}: its blocks cannot be decoded: {}", name, OIIO::geterror()));
-  Image image(width, height, input->spec().nchannels);
-  if (!input->read_image(0, 0, 0, image.channels, OIIO::TypeDesc::FLOAT, image.data.data())) {
-    throw Error(fmt::format("{}: its blocks cannot be decoded: {}", name, input->geterror()));
-  }
+  const auto source =
+      oiio_module(fmt::format("{}: decoding its BC5 or BC7 blocks", name)).open_dds(file, name);
+  const PictureHeader& header = source->header();
+  Image image(width, height, header.channels);
+  std::vector<std::uint8_t> texels(header.row_bytes() * static_cast<std::size_t>(height));
+  if (header.samples != SampleType::u8 || header.width != width || header.height != height)
+    throw Error(fmt::format("{}: its blocks cannot be decoded", name));
+  source->read(height, texels.data());
+  std::ranges::transform(texels, image.data.begin(),
+                         [](std::uint8_t v) { return static_cast<float>(v) * (1 / 255.0f); });
   return image;
 }
 

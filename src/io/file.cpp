@@ -104,23 +104,36 @@ void write_atomically(std::span<const fs::path> targets,
   next();
 }
 
-void write_bytes(const fs::path& target, std::span<const std::byte> bytes) {
-  write_atomically(target, [&](const fs::path& temporary) {
-    const int file = open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
-    if (file < 0) fail_errno("write", target);
-    std::size_t done = 0;
-    while (done < bytes.size()) {
-      const ssize_t n = ::write(file, bytes.data() + done, bytes.size() - done);
-      if (n < 0 && errno == EINTR) continue;
-      if (n < 0) {
-        const int reason = errno;
-        close(file);
-        errno = reason;
-        fail_errno("write", target);
-      }
-      done += static_cast<std::size_t>(n);
+namespace {
+
+/// Puts the bytes into a file called `temporary` that messages call `target`.
+void put_bytes(const fs::path& temporary, const fs::path& target, std::span<const std::byte> bytes) {
+  const int file = open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+  if (file < 0) fail_errno("write", target);
+  std::size_t done = 0;
+  while (done < bytes.size()) {
+    const ssize_t n = ::write(file, bytes.data() + done, bytes.size() - done);
+    if (n < 0 && errno == EINTR) continue;
+    if (n < 0) {
+      const int reason = errno;
+      close(file);
+      errno = reason;
+      fail_errno("write", target);
     }
-    if (close(file) != 0) fail_errno("write", target);
+    done += static_cast<std::size_t>(n);
+  }
+  if (close(file) != 0) fail_errno("write", target);
+}
+
+}  // namespace
+
+void write_bytes(const fs::path& target, std::span<const std::byte> bytes) {
+  write_atomically(target, [&](const fs::path& temporary) { put_bytes(temporary, target, bytes); });
+}
+
+void write_bytes(std::span<const fs::path> targets, std::span<const std::vector<std::byte>> files) {
+  write_atomically(targets, [&](std::span<const fs::path> temporaries) {
+    for (std::size_t i = 0; i < targets.size(); ++i) put_bytes(temporaries[i], targets[i], files[i]);
   });
 }
 

@@ -25,6 +25,9 @@ void write_atomically(std::span<const std::filesystem::path> targets,
 
 /// write_atomically for bytes that are already there. Throws Error, for a full disk too.
 void write_bytes(const std::filesystem::path& target, std::span<const std::byte> bytes);
+/// The same for files that belong together: all appear, or none. One path a file.
+void write_bytes(std::span<const std::filesystem::path> targets,
+                 std::span<const std::vector<std::byte>> files);
 void write_text(const std::filesystem::path& target, const std::string& text);
 
 /// A whole file, or all that comes through a pipe. Throws Error when it is missing or cannot be read.

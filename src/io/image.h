@@ -41,18 +41,19 @@ ImageInfo read_image_info(const std::filesystem::path& path);
 
 /// A picture as linear floats with 1 to 4 channels; colour is multiplied by alpha (associated) where there is
 /// alpha. Of a file with named layers the first four channels are read. Rotated by EXIF orientation; an EXR
-/// is as large as its display window. Throws Error when the file is missing, truncated, corrupt (a JPEG whose
-/// scan breaks off too), animated or CMYK, larger than its bytes can hold, or
-/// not finite.
+/// is as large as its display window. Colours that the file says are not Rec. 709 or not sRGB (an ICC
+/// profile, chromaticities, gamma, the exposure of an HDR) are converted with Encoding::automatic; what
+/// cannot be is a warning (warnings.h). Throws Error when the file is missing, truncated, corrupt (a JPEG
+/// whose scan breaks off too), animated or CMYK, larger than its bytes can hold, or not finite.
 Image read_image(const std::filesystem::path& path, const ReadImageOptions& options = {});
 
 /// A picture that holds data (normals, directions, roughness): samples as stored, integers scaled to [0, 1],
 /// no colour conversion and no multiplication by alpha. Throws as read_image.
 Image read_data(const std::filesystem::path& path, bool allow_non_finite = false);
 
-/// Writes by extension: .png (8 bit), .jpg, .tif as sRGB, clamped to [0, 1], alpha unassociated; .exr as half
-/// (finite values kept within +-65504) and .hdr linear. .jpg and .hdr have no alpha. Atomic. Throws Error for
-/// another extension and when the file cannot be written.
+/// Writes by extension: .png (8 bit), .jpg, .tif, .webp (without loss) as sRGB, clamped to [0, 1], alpha
+/// unassociated; .exr as half (finite values kept within +-65504) and .hdr linear. .jpg and .hdr have no
+/// alpha. Atomic. Throws Error for another extension and when the file cannot be written.
 void write_image(const std::filesystem::path& path, const Image& image);
 
 /// Writes samples as they are: .exr as 32-bit float, .png as 16 bit clamped to [0, 1]. Atomic. Throws as

@@ -6,16 +6,17 @@
 #include <span>
 
 #include "sateen/io/image.h"
+#include "sateen/io/row_samples.h"
 
 namespace sateen::io {
 
 /// Reads a data picture from top to bottom, a few rows at a time, so that pictures larger than memory can be
-/// worked on; a JPEG is held whole. Values as read_data gives them: integers scaled to [0, 1], no colour
-/// conversion.
+/// worked on; of an interlaced PNG, a WebP and a turned JPEG the whole is held, of another JPEG the file.
+/// Values as read_data gives them: integers scaled to [0, 1], no colour conversion.
 class ImageRowReader {
  public:
   /// Throws Error as read_image_info does, and for a picture its EXIF data turn (rows then are no rows of the
-  /// file).
+  /// file), JPEGs apart.
   explicit ImageRowReader(const std::filesystem::path& path);
   ~ImageRowReader();
   ImageRowReader(const ImageRowReader&) = delete;
@@ -39,9 +40,6 @@ class ImageRowReader {
   int next_ = 0;
 };
 
-/// Sample type of an ImageRowWriter; PNG takes the integers, EXR the floats.
-enum class RowSamples { u8, u16, f16, f32 };
-
 /// Writes a data picture from top to bottom. Not atomic by itself: give it the temporary name of
 /// write_atomically.
 class ImageRowWriter {
@@ -61,10 +59,8 @@ class ImageRowWriter {
  private:
   struct File;
   std::filesystem::path name_;
-  int width_;
-  int channels_;
+  std::size_t row_;  ///< samples of a row
   std::unique_ptr<File> file_;
-  int next_ = 0;
 };
 
 }  // namespace sateen::io

@@ -1,23 +1,42 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <span>
 
-#include <OpenImageIO/filesystem.h>
-#include <OpenImageIO/imageio.h>
 #include <fmt/format.h>
 
 #include "sateen/core/colour.h"
 #include "sateen/core/error.h"
 #include "sateen/io/file.h"
+#include "sateen/io/file_error.h"
 #include "sateen/io/image.h"
-#include "sateen/io/image_error.h"
+#include "sateen/io/image_encode.h"
+#include "sateen/io/picture_formats.h"
 
-// OpenImageIO is heavy to compile: only image.cpp and this file include it.
 namespace sateen::io {
-namespace {
 
 namespace fs = std::filesystem;
+
+std::vector<std::string> channel_names(int count) {
+  switch (count) {
+    case 1:
+      return {"Y"};
+    case 2:
+      return {"Y", "A"};
+    case 3:
+      return {"R", "G", "B"};
+    case 4:
+      return {"R", "G", "B", "A"};
+    default:
+      break;
+  }
+  std::vector<std::string> names{"R", "G", "B", "A"};
+  for (int c = 4; c < count; ++c) names.push_back(fmt::format("channel{}", c));
+  return names;
+}
+
+namespace {
 
 void divide_by_alpha(Image& image) {
   const std::size_t n = static_cast<std::size_t>(image.channels);
@@ -35,81 +54,99 @@ void keep_in_half_range(Image& image) {
   }
 }
 
-/// Gives the picture to OpenImageIO, which puts the file at `path` or into `memory`; `target` is for
-/// messages.
-void encode(const fs::path& target, const fs::path& path, OIIO::Filesystem::IOProxy* memory,
-            OIIO::ImageSpec spec, const Image& image) {
-  auto output = OIIO::ImageOutput::create(path.string());
-  if (!output) fail(target, "cannot be written: " + image_reason(OIIO::geterror()));
-  spec["Software"] = "Sateen";
-  if ((memory != nullptr && !output->set_ioproxy(memory)) || !output->open(path.string(), spec) ||
-      !output->write_image(OIIO::TypeDesc::FLOAT, image.data.data()) || !output->close()) {
-    fail(target, "cannot be written: " + image_reason(output->geterror()));
-  }
+PictureLayout layout_of(const Image& image, RowSamples samples) {
+  return {.width = image.width,
+          .height = image.height,
+          .channels = channel_names(image.channels),
+          .samples = samples};
 }
 
-void write(const fs::path& path, const OIIO::ImageSpec& spec, const Image& image) {
+void write_samples(const PictureFormat& format, std::FILE* stream, const std::string& name,
+                   const PictureLayout& layout, const Image& image) {
+  const SinkPtr sink = format.create(stream, name, layout);
+  sink->write(image.height, image.data.data());
+  sink->finish();
+}
+
+void write(const fs::path& path, const PictureFormat& format, const PictureLayout& layout,
+           const Image& image) {
   if (image.empty()) fail(path, "cannot be written: the picture has no pixels");
-  const std::string extension = extension_of(path);
-  if (extension == ".tif" || extension == ".tiff") {  // OpenImageIO 2.4 writes broken TIFFs into memory
-    write_atomically(path, [&](const fs::path& temporary) { encode(path, temporary, nullptr, spec, image); });
-    return;
+  write_atomically(path, [&](const fs::path& temporary) {
+    FileStream file = create_file(temporary, path.string());
+    write_samples(format, file.get(), path.string(), layout, image);
+    close_written(std::move(file), path.string());
+  });
+}
+
+/// The samples that a file of this format holds of a picture, and how.
+struct Prepared {
+  Image image;
+  PictureLayout layout;
+};
+
+Prepared prepared(const PictureFormat& format, const Image& linear) {
+  Image out = linear;
+  if (!format.grey) out = with_channels(out, 3);
+  if (!format.alpha) out = with_channels(out, out.channels < 3 ? 1 : 3);
+  if (!format.linear) {
+    if (out.channels == 2 || out.channels == 4) divide_by_alpha(out);
+    out = srgb_encoded(std::move(out));
   }
-  // By way of memory, because libjpeg ends the process when the disk is full and other writers do not notice.
-  std::vector<unsigned char> bytes;
-  OIIO::Filesystem::IOVecOutput memory(bytes);
-  encode(path, path, &memory, spec, image);
-  write_bytes(path, std::as_bytes(std::span(bytes)));
+  if (format.linear && format.alpha) keep_in_half_range(out);
+  PictureLayout layout = layout_of(out, format.linear ? RowSamples::f16 : RowSamples::u8);
+  layout.srgb = !format.linear;
+  return {std::move(out), std::move(layout)};
+}
+
+std::string writable_extensions() {
+  std::string list;
+  for (const PictureFormat& format : picture_formats()) {
+    const bool last = &format == &picture_formats().back();
+    list += (list.empty() ? "" : last ? " or " : ", ") + std::string(format.extensions.front());
+  }
+  return list;
+}
+
+const PictureFormat& format_to_write(const fs::path& path) {
+  const PictureFormat* format = format_of_extension(extension_of(path));
+  if (format == nullptr) fail(path, "unknown picture type; use " + writable_extensions());
+  return *format;
+}
+
+/// A stream that collects what is written to it.
+struct MemoryStream {
+  char* bytes = nullptr;
+  std::size_t count = 0;
+  FileStream stream{open_memstream(&bytes, &count)};
+  ~MemoryStream() {
+    stream.reset();
+    std::free(bytes);
+  }
+};
+
+std::vector<std::byte> encoded(const PictureFormat& format, const PictureLayout& layout,
+                               const Image& samples) {
+  if (samples.empty()) throw Error("a picture without pixels cannot be encoded");
+  MemoryStream memory;
+  write_samples(format, memory.stream.get(), "the picture", layout, samples);
+  memory.stream.reset();
+  const auto bytes = std::as_bytes(std::span(memory.bytes, memory.count));
+  return {bytes.begin(), bytes.end()};
 }
 
 }  // namespace
 
 void write_image(const fs::path& path, const Image& image) {
-  const std::string extension = extension_of(path);
-  const bool floating = extension == ".exr" || extension == ".hdr";
-  if (!floating && extension != ".png" && extension != ".jpg" && extension != ".jpeg" &&
-      extension != ".tif" && extension != ".tiff") {
-    fail(path, "unknown picture type; use .png, .jpg, .tif, .exr or .hdr");
-  }
-  Image out = image;
-  if (extension == ".hdr") out = with_channels(out, 3);
-  const bool jpeg = extension == ".jpg" || extension == ".jpeg";
-  if (jpeg) out = with_channels(out, out.channels < 3 ? 1 : 3);
-  OIIO::ImageSpec spec(out.width, out.height, out.channels, OIIO::TypeDesc::UINT8);
-  if (out.channels == 2) {  // OpenImageIO takes them for red and green
-    spec.channelnames = {"Y", "A"};
-    spec.alpha_channel = 1;
-  }
-  if (floating) {
-    spec.format = extension == ".exr" ? OIIO::TypeDesc::HALF : OIIO::TypeDesc::FLOAT;
-    if (extension == ".exr") keep_in_half_range(out);
-  } else {
-    if (out.channels == 2 || out.channels == 4) {
-      divide_by_alpha(out);
-      spec["oiio:UnassociatedAlpha"] = 1;
-    }
-    out = srgb_encoded(std::move(out));
-    for (float& v : out.data) v = std::clamp(v, 0.0f, 1.0f);
-    spec["oiio:ColorSpace"] = "sRGB";
-    if (jpeg) {
-      spec["Compression"] = "jpeg:95";
-      spec["jpeg:subsampling"] = "4:4:4";
-    }
-  }
-  write(path, spec, out);
+  const PictureFormat& format = format_to_write(path);
+  const Prepared out = prepared(format, image);
+  write(path, format, out.layout, out.image);
 }
 
 void write_data(const fs::path& path, const Image& image) {
   const std::string extension = extension_of(path);
-  OIIO::ImageSpec spec(image.width, image.height, image.channels, OIIO::TypeDesc::FLOAT);
-  if (extension == ".png") {
-    spec.format = OIIO::TypeDesc::UINT16;
-  } else if (extension != ".exr") {
-    fail(path, "data pictures are written as .exr or .png");
-  }
-  spec["oiio:ColorSpace"] = "Linear";
-  spec["oiio:UnassociatedAlpha"] = 1;
-  write(path, spec, image);
+  if (extension != ".png" && extension != ".exr") fail(path, "data pictures are written as .exr or .png");
+  const auto samples = extension == ".png" ? RowSamples::u16 : RowSamples::f32;
+  write(path, format_to_write(path), layout_of(image, samples), image);
 }
 
 void write_layers(const fs::path& path, std::span<const ImageLayer> layers) {
@@ -123,12 +160,12 @@ void write_layers(const fs::path& path, std::span<const ImageLayer> layers) {
     channels += layer.image.channels;
   }
   Image all(layers[0].image.width, layers[0].image.height, channels);
-  OIIO::ImageSpec spec(all.width, all.height, channels, OIIO::TypeDesc::HALF);
-  spec.channelnames.clear();
+  PictureLayout layout = layout_of(all, RowSamples::f16);
+  layout.channels.clear();
   int first = 0;
   for (const ImageLayer& layer : layers) {
     for (int c = 0; c < layer.image.channels; ++c) {
-      spec.channelnames.push_back(fmt::format("{}.{}", layer.name, "RGBA"[c]));
+      layout.channels.push_back(fmt::format("{}.{}", layer.name, "RGBA"[c]));
     }
     for (int y = 0; y < all.height; ++y) {
       for (int x = 0; x < all.width; ++x) {
@@ -137,9 +174,30 @@ void write_layers(const fs::path& path, std::span<const ImageLayer> layers) {
     }
     first += layer.image.channels;
   }
-  spec.alpha_channel = -1;
   keep_in_half_range(all);
-  write(path, spec, all);
+  write(path, format_to_write(path), layout, all);
+}
+
+std::vector<std::byte> encode_png(const Image& image) {
+  const PictureFormat& format = *format_of_extension(".png");
+  const Prepared out = prepared(format, image);
+  return encoded(format, out.layout, out.image);
+}
+
+std::vector<std::byte> encode_jpeg(const Image& image, int quality) {
+  const PictureFormat& format = *format_of_extension(".jpg");
+  Prepared out = prepared(format, image);
+  out.layout.quality = quality;
+  return encoded(format, out.layout, out.image);
+}
+
+std::vector<std::byte> encode_png(const Picture8& picture) {
+  Image samples(picture.width, picture.height, 3);
+  std::ranges::transform(picture.rgb, samples.data.begin(),
+                         [](std::uint8_t v) { return static_cast<float>(v) / 255; });
+  PictureLayout layout = layout_of(samples, RowSamples::u8);
+  layout.quick = true;
+  return encoded(*format_of_extension(".png"), layout, samples);
 }
 
 }  // namespace sateen::io

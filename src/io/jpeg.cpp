@@ -4,11 +4,14 @@
 #include <algorithm>
 #include <csetjmp>
 #include <cstdio>  // jpeglib.h needs it
+#include <cstdlib>
 
 #include <jerror.h>
 #include <jpeglib.h>
 
+#include "sateen/io/exif.h"
 #include "sateen/io/image_error.h"
+#include "sateen/io/picture_codecs.h"
 
 namespace sateen::io {
 namespace {
@@ -39,47 +42,59 @@ bool only_padding(j_common_ptr info) {
 void on_message(j_common_ptr info, int level) {
   if (level >= 0) return;  // a trace
   const int code = info->err->msg_code;
-  if (code == JWRN_JFIF_MAJOR || code == JWRN_ADOBE_XFORM) return;
+  if (code == JWRN_JFIF_MAJOR || code == JWRN_ADOBE_XFORM || code == JWRN_BOGUS_ICC) return;
   constexpr int kEndOfImage = 0xd9;
   if (code == JWRN_EXTRANEOUS_DATA && info->err->msg_parm.i[1] == kEndOfImage && only_padding(info)) return;
   leave(info);
 }
 
-/// Ends the decoder whichever way its scope is left.
-struct Decoder {
-  jpeg_decompress_struct info{};
-  ~Decoder() { jpeg_destroy_decompress(&info); }
-};
-
 constexpr int kExifMarker = JPEG_APP0 + 1;
+constexpr int kProfileMarker = JPEG_APP0 + 2;
 
-/// A whole number of an EXIF block; 0 beyond its end.
-unsigned exif_number(std::span<const JOCTET> exif, std::size_t at, std::size_t bytes, bool big_endian) {
-  if (at + bytes > exif.size()) return 0;
-  unsigned value = 0;
-  for (std::size_t i = 0; i < bytes; ++i) value = value << 8 | exif[at + (big_endian ? i : bytes - 1 - i)];
-  return value;
-}
-
-/// 1 for a picture as it should be seen, to 8; 1 as well where the file does not say.
-unsigned exif_orientation(const jpeg_decompress_struct& info) {
-  constexpr std::size_t kTiff = 6;  // behind "Exif" and two zeros
-  for (auto* marker = info.marker_list; marker != nullptr; marker = marker->next) {
-    const std::span<const JOCTET> exif(marker->data, marker->data_length);
-    if (marker->marker != kExifMarker || exif.size() < kTiff + 8 || exif[0] != 'E') continue;
-    const bool big_endian = exif[kTiff] == 'M';
-    const std::size_t directory = kTiff + exif_number(exif, kTiff + 4, 4, big_endian);
-    const unsigned entries = exif_number(exif, directory, 2, big_endian);
-    for (std::size_t i = 0; i < entries; ++i) {
-      const std::size_t entry = directory + 2 + 12 * i;
-      constexpr unsigned kOrientation = 0x0112;
-      if (exif_number(exif, entry, 2, big_endian) != kOrientation) continue;
-      const unsigned orientation = exif_number(exif, entry + 8, 2, big_endian);
-      return orientation >= 1 && orientation <= 8 ? orientation : 1;
-    }
+/// libjpeg's decoder on bytes in memory. libjpeg fills what is missing or broken with grey and only warns;
+/// here each warning that means lost pixels is an Error.
+class Decoder {
+ public:
+  Decoder(std::string name, std::span<const std::byte> bytes) : name_(std::move(name)) {
+    info.err = jpeg_std_error(&errors_.base);
+    errors_.base.error_exit = leave;
+    errors_.base.emit_message = on_message;
+    guarded([&] {
+      jpeg_create_decompress(&info);
+      jpeg_save_markers(&info, kExifMarker, 0xffff);
+      jpeg_save_markers(&info, kProfileMarker, 0xffff);
+      jpeg_mem_src(&info, reinterpret_cast<const unsigned char*>(bytes.data()),
+                   static_cast<unsigned long>(bytes.size()));
+      jpeg_read_header(&info, TRUE);
+    });
   }
-  return 1;
-}
+  ~Decoder() { jpeg_destroy_decompress(&info); }
+  Decoder(const Decoder&) = delete;
+  Decoder& operator=(const Decoder&) = delete;
+
+  /// Runs `work`, out of which libjpeg's errors jump: it may own nothing.
+  template <class Work>
+  void guarded(const Work& work) {
+    if (setjmp(errors_.escape) != 0) fail(name_, "is truncated or corrupt: " + image_reason(errors_.message));
+    work();
+  }
+
+  int orientation() const {
+    constexpr std::size_t kBlock = 6;  // behind "Exif" and two zeros
+    for (auto* marker = info.marker_list; marker != nullptr; marker = marker->next) {
+      const auto bytes = std::as_bytes(std::span(marker->data, marker->data_length));
+      if (marker->marker == kExifMarker && bytes.size() > kBlock && bytes[0] == std::byte{'E'})
+        return read_exif(bytes.subspan(kBlock)).orientation;
+    }
+    return 1;
+  }
+
+  jpeg_decompress_struct info{};
+
+ private:
+  std::string name_;
+  ErrorManager errors_{};
+};
 
 /// The part of a picture that is decoded.
 struct Band {
@@ -101,82 +116,147 @@ Band crop(jpeg_decompress_struct& info, const PixelRect& region) {
   return {first, static_cast<JDIMENSION>(region.y + region.height)};
 }
 
-/// Decodes row by row: `start(info)` looks at the header and may decline with false, which is returned then;
-/// `place(y)` says where row y goes, `done(y)` hears that it is there. Of `only` (may be null) the rows, and
-/// of them at least its columns. libjpeg's errors jump out of here: what owns memory belongs to the caller.
-template <class Start, class Place, class Done>
-bool decode_rows(const std::filesystem::path& path, std::span<const std::byte> bytes, const PixelRect* only,
-                 const Start& start, const Place& place, const Done& done) {
-  ErrorManager errors{};
-  Decoder decoder;
-  jpeg_decompress_struct& info = decoder.info;
-  info.err = jpeg_std_error(&errors.base);
-  errors.base.error_exit = leave;
-  errors.base.emit_message = on_message;
-  if (setjmp(errors.escape) != 0) {
-    fail(path, "is truncated or corrupt: " + image_reason(errors.message));
-  }
-  jpeg_create_decompress(&info);
-  jpeg_save_markers(&info, kExifMarker, 0xffff);
-  jpeg_mem_src(&info, reinterpret_cast<const unsigned char*>(bytes.data()),
-               static_cast<unsigned long>(bytes.size()));
-  jpeg_read_header(&info, TRUE);
-  if (!start(info)) return false;
-  jpeg_start_decompress(&info);
-  const Band band = only == nullptr ? Band{0, info.output_height} : crop(info, *only);
-  while (info.output_scanline < band.end) {
-    const auto y = static_cast<int>(info.output_scanline);
-    JSAMPROW row = place(y) + band.first_column * static_cast<JDIMENSION>(info.output_components);
-    jpeg_read_scanlines(&info, &row, 1);
-    done(y);
-  }
-  if (band.end == info.output_height) jpeg_finish_decompress(&info);
-  return true;
+PictureHeader header_of(const jpeg_decompress_struct& info, int orientation) {
+  PictureHeader header;
+  header.width = static_cast<int>(info.image_width);
+  header.height = static_cast<int>(info.image_height);
+  header.channels = info.jpeg_color_space == JCS_GRAYSCALE ? 1 : 3;
+  header.orientation = orientation;
+  return header;
 }
+
+class JpegSource final : public PictureSource {
+ public:
+  JpegSource(const std::string& name, std::vector<std::byte> bytes)
+      : bytes_(std::move(bytes)), decoder_(name, bytes_) {
+    jpeg_decompress_struct& info = decoder_.info;
+    if (info.jpeg_color_space == JCS_CMYK || info.jpeg_color_space == JCS_YCCK)
+      fail(name, "is CMYK; convert it to RGB first");
+    header_ = header_of(info, decoder_.orientation());
+    if (info.jpeg_color_space == JCS_UNKNOWN) header_.channels = info.num_components;
+    read_profile();
+  }
+
+  void read(int rows, void* out) override {
+    jpeg_decompress_struct& info = decoder_.info;
+    decoder_.guarded([&] {
+      if (info.output_scanline == 0) jpeg_start_decompress(&info);
+      auto* row = static_cast<JSAMPROW>(out);
+      for (int i = 0; i < rows; ++i, row += header_.row_bytes()) jpeg_read_scanlines(&info, &row, 1);
+      if (info.output_scanline == info.output_height) jpeg_finish_decompress(&info);
+    });
+  }
+
+ private:
+  void read_profile() {
+    JOCTET* profile = nullptr;
+    unsigned size = 0;
+    decoder_.guarded([&] { jpeg_read_icc_profile(&decoder_.info, &profile, &size); });
+    const auto bytes = std::as_bytes(std::span(profile, size));
+    header_.colour.icc.assign(bytes.begin(), bytes.end());
+    std::free(profile);
+  }
+
+  std::vector<std::byte> bytes_;
+  Decoder decoder_;
+};
+
+struct Encoder {
+  jpeg_compress_struct info{};
+  ~Encoder() { jpeg_destroy_compress(&info); }
+};
+
+class JpegSink final : public PictureSink {
+ public:
+  JpegSink(std::FILE* stream, const std::string& name, const PictureLayout& layout)
+      : name_(name), layout_(layout), row_(layout.row_samples()) {
+    if (layout.channel_count() != 1 && layout.channel_count() != 3) fail(name, "a JPEG is grey or RGB");
+    encoder_.info.err = jpeg_std_error(&errors_.base);
+    errors_.base.error_exit = leave;
+    guarded([&] { start(stream); });
+  }
+
+  void write(int rows, const float* samples) override {
+    for (int y = 0; y < rows; ++y, samples += row_.size()) {
+      std::transform(samples, samples + row_.size(), row_.begin(),
+                     [](float v) { return static_cast<JSAMPLE>(quantised(v, 255)); });
+      guarded([&] {
+        JSAMPROW row = row_.data();
+        jpeg_write_scanlines(&encoder_.info, &row, 1);
+      });
+    }
+  }
+
+  void finish() override {
+    guarded([&] { jpeg_finish_compress(&encoder_.info); });
+  }
+
+ private:
+  template <class Work>
+  void guarded(const Work& work) {
+    if (setjmp(errors_.escape) != 0) fail(name_, "cannot be written: " + image_reason(errors_.message));
+    work();
+  }
+
+  void start(std::FILE* stream) {
+    jpeg_compress_struct& info = encoder_.info;
+    jpeg_create_compress(&info);
+    jpeg_stdio_dest(&info, stream);
+    info.image_width = static_cast<JDIMENSION>(layout_.width);
+    info.image_height = static_cast<JDIMENSION>(layout_.height);
+    info.input_components = layout_.channel_count();
+    info.in_color_space = layout_.channel_count() == 1 ? JCS_GRAYSCALE : JCS_RGB;
+    jpeg_set_defaults(&info);
+    jpeg_set_quality(&info, layout_.quality, TRUE);
+    for (int c = 0; c < info.num_components; ++c) {  // full resolution for colour too
+      info.comp_info[c].h_samp_factor = 1;
+      info.comp_info[c].v_samp_factor = 1;
+    }
+    jpeg_start_compress(&info, TRUE);
+  }
+
+  std::string name_;
+  PictureLayout layout_;
+  ErrorManager errors_{};
+  Encoder encoder_;
+  std::vector<JSAMPLE> row_;
+};
 
 }  // namespace
 
-Image decode_jpeg(const std::filesystem::path& path, std::span<const std::byte> bytes,
-                  const PixelRect& region, std::span<const float, 256> values) {
-  Image image;
-  std::vector<JSAMPLE> row;
-  std::size_t channels = 0;
-  const auto start = [&](jpeg_decompress_struct& info) {
-    jpeg_calc_output_dimensions(&info);
-    channels = static_cast<std::size_t>(info.output_components);
-    image = Image(region.width, region.height, info.output_components);
-    row.resize(info.output_width * channels);
-    return true;
-  };
-  const auto done = [&](int at) {
-    const int y = at - region.y;
-    if (y < 0 || y >= region.height) return;
-    const JSAMPLE* in = row.data() + static_cast<std::size_t>(region.x) * channels;
-    std::transform(in, in + static_cast<std::size_t>(region.width) * channels, image.pixel(0, y).data(),
-                   [&](JSAMPLE v) { return values[v]; });
-  };
-  decode_rows(
-      path, bytes, nullptr, start, [&](int) { return row.data(); }, done);
-  return image;
+SourcePtr open_jpeg(PictureBytes bytes) {
+  std::vector<std::byte> all = remaining_bytes(bytes);
+  return std::make_unique<JpegSource>(bytes.name, std::move(all));
+}
+
+SinkPtr create_jpeg(std::FILE* stream, const std::string& name, const PictureLayout& layout) {
+  return std::make_unique<JpegSink>(stream, name, layout);
 }
 
 bool decode_plain_jpeg(const std::filesystem::path& path, std::span<const std::byte> bytes, Picture8& picture,
                        const PixelRect* only) {
   if (bytes.size() < 2 || bytes[0] != std::byte{0xff} || bytes[1] != std::byte{0xd8}) return false;
-  std::size_t stride = 0;
-  const auto start = [&](jpeg_decompress_struct& info) {
-    const bool colours = info.jpeg_color_space == JCS_YCbCr || info.jpeg_color_space == JCS_RGB ||
-                         info.jpeg_color_space == JCS_GRAYSCALE;
-    if (!colours || exif_orientation(info) != 1) return false;
-    info.out_color_space = JCS_RGB;
-    picture.width = static_cast<int>(info.image_width);
-    picture.height = static_cast<int>(info.image_height);
-    stride = static_cast<std::size_t>(picture.width) * 3;
-    picture.rgb.resize(stride * info.image_height);
-    return true;
-  };
-  const auto place = [&](int y) { return picture.rgb.data() + static_cast<std::size_t>(y) * stride; };
-  return decode_rows(path, bytes, only, start, place, [](int) {});
+  Decoder decoder(path.string(), bytes);
+  jpeg_decompress_struct& info = decoder.info;
+  const bool colours = info.jpeg_color_space == JCS_YCbCr || info.jpeg_color_space == JCS_RGB ||
+                       info.jpeg_color_space == JCS_GRAYSCALE;
+  if (!colours || decoder.orientation() != 1) return false;
+  check_size(path.string(), header_of(info, 1), bytes.size());
+  info.out_color_space = JCS_RGB;
+  picture.width = static_cast<int>(info.image_width);
+  picture.height = static_cast<int>(info.image_height);
+  const std::size_t stride = static_cast<std::size_t>(picture.width) * 3;
+  picture.rgb.resize(stride * info.image_height);
+  decoder.guarded([&] {
+    jpeg_start_decompress(&info);
+    const Band band = only == nullptr ? Band{0, info.output_height} : crop(info, *only);
+    while (info.output_scanline < band.end) {
+      JSAMPROW row = picture.rgb.data() + info.output_scanline * stride + band.first_column * 3;
+      jpeg_read_scanlines(&info, &row, 1);
+    }
+    if (band.end == info.output_height) jpeg_finish_decompress(&info);
+  });
+  return true;
 }
 
 }  // namespace sateen::io

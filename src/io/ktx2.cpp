@@ -5,6 +5,7 @@
 #include <array>
 #include <bit>
 #include <cstring>
+#include <fstream>
 #include <memory>
 #include <numeric>
 #include <optional>
@@ -121,6 +122,11 @@ class Reader {
     return bytes_.subspan(static_cast<std::size_t>(offset), static_cast<std::size_t>(length));
   }
 
+  /// The first `length` bytes, or as many as there are.
+  std::span<const std::byte> head(std::size_t length) const {
+    return bytes_.first(std::min(length, bytes_.size()));
+  }
+
   template <typename T>
   T get(std::uint64_t offset, const std::string& what) const {
     T value;
@@ -165,6 +171,65 @@ std::map<std::string, std::string> read_metadata(const Reader& file, const Heade
     at = std::min(bytes.size(), (at + length + 3) / 4 * 4);
   }
   return metadata;
+}
+
+/// A texture without its levels, and how many those are.
+struct Opened {
+  Ktx2 texture;
+  std::uint32_t levels = 0;
+  bool compressed = false;
+};
+
+Opened read_header(const Reader& file) {
+  const auto start = file.head(sizeof kIdentifier);
+  if (start.size() < sizeof kIdentifier || std::memcmp(start.data(), kIdentifier.data(), start.size()) != 0) {
+    file.fail("is no KTX2 texture");
+  }
+  const auto header = file.get<Header>(sizeof kIdentifier, "its header");
+  Ktx2 texture{static_cast<VkFormat>(header.format),
+               header.width,
+               header.height,
+               header.depth,
+               header.layers,
+               header.faces,
+               {},
+               {}};
+  const std::uint32_t levels = std::max(1u, header.levels);  // 0 asks the reader to make the smaller ones
+  if (const auto fault = dimension_fault(texture, levels)) file.fail("cannot be read: " + *fault);
+  if (header.supercompression != kNoSupercompression && header.supercompression != kZstandard) {
+    file.fail(
+        fmt::format("cannot be read: supercompression scheme {} is not supported; none and Zstandard are",
+                    header.supercompression));
+  }
+  if (header.type_size != find_texel_layout(texture.format)->type_size) {
+    file.fail(fmt::format("is corrupt: a number of its format does not have {} bytes", header.type_size));
+  }
+  check_descriptor(file, header);
+  texture.metadata = read_metadata(file, header);
+  return {std::move(texture), levels, header.supercompression == kZstandard};
+}
+
+/// A file up to where its key/value data end, as its header says; less where the file ends before.
+std::vector<std::byte> first_bytes(const fs::path& path) {
+  std::error_code code;
+  if (!fs::is_regular_file(path, code)) return read_bytes(path);  // which says what is wrong, or reads a pipe
+  std::ifstream in(path, std::ios::binary);
+  if (!in) return read_bytes(path);
+  std::vector<std::byte> bytes(kIndexOffset);
+  const auto read_on = [&](std::size_t from) {
+    in.read(reinterpret_cast<char*>(bytes.data() + from), static_cast<std::streamsize>(bytes.size() - from));
+    bytes.resize(from + static_cast<std::size_t>(in.gcount()));
+  };
+  read_on(0);
+  if (bytes.size() < kIndexOffset) return bytes;
+  Header header{};
+  std::memcpy(&header, bytes.data() + sizeof kIdentifier, sizeof header);
+  const std::uint64_t end = std::max(std::uint64_t{header.descriptor_offset} + header.descriptor_bytes,
+                                     std::uint64_t{header.metadata_offset} + header.metadata_bytes);
+  bytes.resize(
+      static_cast<std::size_t>(std::clamp<std::uint64_t>(end, kIndexOffset, fs::file_size(path, code))));
+  read_on(kIndexOffset);
+  return bytes;
 }
 
 std::vector<std::byte> inflate(const Reader& file, std::span<const std::byte> packed, std::size_t bytes,
@@ -278,45 +343,28 @@ std::size_t ktx2_level_bytes(const Ktx2& texture, std::uint32_t level) {
   return static_cast<std::size_t>(bytes);
 }
 
+Ktx2 read_ktx2_info(const fs::path& path) {
+  const std::vector<std::byte> bytes = first_bytes(path);
+  return read_header(Reader(path, bytes)).texture;
+}
+
 Ktx2 read_ktx2(const fs::path& path) {
   const std::vector<std::byte> bytes = read_bytes(path);
   const Reader file(path, bytes);
-  if (bytes.size() < sizeof kIdentifier ||
-      std::memcmp(bytes.data(), kIdentifier.data(), sizeof kIdentifier) != 0) {
-    file.fail("is no KTX2 texture");
-  }
-  const auto header = file.get<Header>(sizeof kIdentifier, "its header");
-  Ktx2 texture{static_cast<VkFormat>(header.format),
-               header.width,
-               header.height,
-               header.depth,
-               header.layers,
-               header.faces,
-               {},
-               {}};
-  const std::uint32_t levels = std::max(1u, header.levels);  // 0 asks the reader to make the smaller ones
-  if (const auto fault = dimension_fault(texture, levels)) file.fail("cannot be read: " + *fault);
-  if (header.supercompression != kNoSupercompression && header.supercompression != kZstandard) {
-    file.fail(
-        fmt::format("cannot be read: supercompression scheme {} is not supported; none and Zstandard are",
-                    header.supercompression));
-  }
-  if (header.type_size != find_texel_layout(texture.format)->type_size) {
-    file.fail(fmt::format("is corrupt: a number of its format does not have {} bytes", header.type_size));
-  }
-  check_descriptor(file, header);
-  texture.metadata = read_metadata(file, header);
-  for (std::uint32_t i = 0; i < levels; ++i) {
-    texture.levels.push_back(read_level(file, texture, i, header.supercompression == kZstandard));
-  }
+  auto [texture, levels, compressed] = read_header(file);
+  for (std::uint32_t i = 0; i < levels; ++i)
+    texture.levels.push_back(read_level(file, texture, i, compressed));
   return texture;
 }
 
-void write_ktx2(const fs::path& path, const Ktx2& texture, int zstd_level) {
+namespace {
+
+/// The whole file; `path` is for messages.
+std::vector<std::byte> file_bytes(const fs::path& path, const Ktx2& texture, int zstd_level) {
   check_writable(path, texture, zstd_level);
   const TexelLayout& layout = *find_texel_layout(texture.format);
   const bool compressed = zstd_level > 0;
-  const auto descriptor = data_format_descriptor(layout, !compressed);
+  const auto descriptor = data_format_descriptor(layout);
   const auto metadata = packed_metadata(texture.metadata);
 
   Header header{};
@@ -351,7 +399,20 @@ void write_ktx2(const fs::path& path, const Ktx2& texture, int zstd_level) {
     std::memcpy(out.data() + kIndexOffset + i * sizeof entry, &entry, sizeof entry);
     append(out, level.data(), level.size());
   }
-  write_bytes(path, out);
+  return out;
+}
+
+}  // namespace
+
+void write_ktx2(const fs::path& path, const Ktx2& texture, int zstd_level) {
+  write_bytes(path, file_bytes(path, texture, zstd_level));
+}
+
+void write_ktx2(std::span<const fs::path> paths, std::span<const Ktx2> textures, int zstd_level) {
+  std::vector<std::vector<std::byte>> files;
+  for (std::size_t i = 0; i < paths.size(); ++i)
+    files.push_back(file_bytes(paths[i], textures[i], zstd_level));
+  write_bytes(paths, files);
 }
 
 }  // namespace sateen::io

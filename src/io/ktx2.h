@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -48,9 +49,17 @@ std::size_t ktx2_level_bytes(const Ktx2& texture, std::uint32_t level);
 /// format.
 Ktx2 read_ktx2(const std::filesystem::path& path);
 
+/// What a KTX2 says of itself: all of the above but the levels, which stay empty. None is inflated, nor read
+/// from the disk. Throws Error as read_ktx2, but not for what is wrong with a level.
+Ktx2 read_ktx2_info(const std::filesystem::path& path);
+
 /// Writes with Zstandard supercompression at `zstd_level` (0: none), a correct basic data format descriptor
 /// and KTXwriter. Atomic. Throws Error when a level's size does not fit the dimensions or the file cannot be
 /// written.
 void write_ktx2(const std::filesystem::path& path, const Ktx2& texture, int zstd_level = 9);
+
+/// The same for textures that belong together: all files appear, or none. One path a texture.
+void write_ktx2(std::span<const std::filesystem::path> paths, std::span<const Ktx2> textures,
+                int zstd_level = 9);
 
 }  // namespace sateen::io

@@ -82,7 +82,7 @@ const TexelLayout* find_texel_layout(VkFormat format) {
   return found == layouts.end() ? nullptr : &*found;
 }
 
-std::vector<std::uint32_t> data_format_descriptor(const TexelLayout& layout, bool sized) {
+std::vector<std::uint32_t> data_format_descriptor(const TexelLayout& layout) {
   constexpr std::uint32_t kVersion = 2;
   constexpr std::uint32_t kBt709 = 1;
   const std::uint32_t transfer = layout.srgb ? 2 : 1;
@@ -94,7 +94,7 @@ std::vector<std::uint32_t> data_format_descriptor(const TexelLayout& layout, boo
       kVersion | block_size << 16,
       layout.colour_model | kBt709 << 8 | transfer << 16,  // alpha is straight: no flags
       side | side << 8,
-      sized ? layout.block_bytes : 0,
+      layout.block_bytes,
       0,
   };
   for (const Sample& sample : layout.samples) {

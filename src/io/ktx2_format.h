@@ -37,7 +37,8 @@ struct TexelLayout {
 const TexelLayout* find_texel_layout(VkFormat format);
 
 /// A whole descriptor: total size, then one basic descriptor block (Khronos Data Format 1.3, section 5).
-/// `sized` is false when the levels are supercompressed: bytesPlane0 is 0 then, as KTX 2.0 (3.10.3) demands.
-std::vector<std::uint32_t> data_format_descriptor(const TexelLayout& layout, bool sized);
+/// bytesPlane0 is the size of a texel or block for supercompressed levels too: later editions of KTX 2.0 ask
+/// for that, and readers that went by the first, which asked for 0, do not look.
+std::vector<std::uint32_t> data_format_descriptor(const TexelLayout& layout);
 
 }  // namespace sateen::io

@@ -10,13 +10,16 @@
 
 namespace sateen::io {
 
+class FrameSource;
+
 /// Extensions of the video files that can be read, lower case with the dot.
 std::span<const std::string> video_extensions();
 
 /// Reads a video from its first frame to its last, one frame in memory at a time.
 class VideoReader {
  public:
-  /// Throws Error naming the file when it is missing or no video this computer can decode.
+  /// Throws Error naming the file when it is missing or no video this computer can decode, or the
+  /// module for films is not installed.
   explicit VideoReader(const std::filesystem::path& path);
   ~VideoReader();
   VideoReader(VideoReader&&) noexcept;
@@ -34,8 +37,7 @@ class VideoReader {
   bool skip();
 
  private:
-  struct State;
-  std::unique_ptr<State> state_;
+  std::unique_ptr<FrameSource> frames_;
 };
 
 }  // namespace sateen::io

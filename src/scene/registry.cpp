@@ -66,7 +66,7 @@ const Value& find(const std::map<std::string, Value>& known, const std::string& 
 }
 
 Made load_ktx2(const fs::path& path) {
-  const auto metadata = io::read_ktx2(path).metadata;
+  const auto metadata = io::read_ktx2_info(path).metadata;
   const auto kind = metadata.find("sateen.kind");
   if (kind == metadata.end()) {
     throw Error(fmt::format("{}: is a texture but none that Sateen made; \"sateen amc build\" makes one",

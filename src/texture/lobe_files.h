@@ -11,6 +11,11 @@
 
 namespace sateen::texture {
 
+/// "sateen.kind" and "sateen.version" of the .ktx2 files of a chain.
+inline constexpr const char* kNormalMapKind = "normal-map";
+inline constexpr const char* kAnisotropyMapKind = "anisotropy-map";
+inline constexpr int kLobeFileVersion = 1;
+
 /// How a normal map stores its vectors.
 struct NormalMapFormat {
   bool green_down = false;  ///< Direct3D style; otherwise green up (OpenGL, glTF)

@@ -245,13 +245,16 @@ std::vector<fs::path> write_ktx(LobeSource& source, const fs::path& base, const 
   filter_lobe_chain(source, sink, chain, progress);
   for (io::Ktx2& map : sink.maps) {
     map.metadata["KTXorientation"] = "rd";
+    map.metadata["sateen.version"] = std::to_string(kLobeFileVersion);
     map.metadata["SateenFilter"] =
         name_of(chain.filter.method) + (chain.filter.isotropic ? " isotropic" : "");
   }
+  sink.maps[0].metadata["sateen.kind"] = kNormalMapKind;
+  sink.maps[1].metadata["sateen.kind"] = kAnisotropyMapKind;
   sink.maps[0].metadata["SateenNormals"] = output.green_down ? "xy, green down" : "xy, green up";
   sink.maps[1].metadata["SateenAnisotropy"] = name_of(output.encoding);
   const std::vector<fs::path> paths{base.string() + "_normal.ktx2", base.string() + "_aniso.ktx2"};
-  for (std::size_t map = 0; map < 2; ++map) io::write_ktx2(paths[map], sink.maps[map], output.zstd_level);
+  io::write_ktx2(paths, sink.maps, output.zstd_level);
   return paths;
 }
 

@@ -85,12 +85,44 @@ TEST(Ktx2, DescriptorOfSrgb8SaysSrgbAndALinearAlpha) {
                                         255}));
 }
 
-TEST(Ktx2, DescriptorOfHalfFloatIsSignedFloatAndUnsizedWhenSupercompressed) {
+TEST(Ktx2, DescriptorOfHalfFloatIsSignedFloatAndSizedWhenSupercompressed) {
   EXPECT_EQ(written_descriptor(VkFormat::rgba16_sfloat, 3),
             (std::vector<std::uint32_t>{
-                92,         0, 2 | 88 << 16, 0x00010101, 0,          0, 0,  //
+                92,         0, 2 | 88 << 16, 0x00010101, 0,          8, 0,  //
                 0xc00f0000, 0, 0xbf800000,   0x3f800000, 0xc10f0010, 0, 0xbf800000, 0x3f800000,
                 0xc20f0020, 0, 0xbf800000,   0x3f800000, 0xcf0f0030, 0, 0xbf800000, 0x3f800000}));
+}
+
+TEST(Ktx2, TheHeaderIsReadWithoutTheLevels) {
+  const test::TemporaryFolder folder;
+  Ktx2 texture{VkFormat::rgba8_unorm, 4, 4, 0, 0, 1, {std::vector<std::byte>(64, std::byte{7})},
+               {{"sateen.kind", "x"}}};
+  write_ktx2(folder / "a.ktx2", texture);
+  std::vector<std::byte> bytes = read_bytes(folder / "a.ktx2");
+  bytes.resize(bytes.size() - 10);  // into the level
+  write_bytes(folder / "cut.ktx2", bytes);
+  EXPECT_THROW(read_ktx2(folder / "cut.ktx2"), Error);
+  const Ktx2 info = read_ktx2_info(folder / "cut.ktx2");
+  EXPECT_EQ(info.width, 4u);
+  EXPECT_TRUE(info.levels.empty());
+  EXPECT_EQ(info.metadata.at("sateen.kind"), "x");
+  bytes.resize(150);  // into the key/value data
+  write_bytes(folder / "cut.ktx2", bytes);
+  EXPECT_THROW(read_ktx2_info(folder / "cut.ktx2"), Error);
+}
+
+TEST(Ktx2, TexturesThatBelongTogetherAppearTogether) {
+  const test::TemporaryFolder folder;
+  const Ktx2 whole{VkFormat::rgba8_unorm, 1, 1, 0, 0, 1, {std::vector<std::byte>(4)}, {}};
+  const std::vector<std::filesystem::path> paths{folder / "a.ktx2", folder / "b.ktx2"};
+  write_ktx2(paths, std::vector<Ktx2>{whole, whole});
+  EXPECT_EQ(read_ktx2(paths[0]).width, 1u);
+  EXPECT_EQ(read_ktx2(paths[1]).width, 1u);
+  std::filesystem::remove(paths[0]);
+  std::filesystem::remove(paths[1]);
+  std::filesystem::create_directory(paths[1]);  // no file can be put there
+  EXPECT_THROW(write_ktx2(paths, std::vector<Ktx2>{whole, whole}), Error);
+  EXPECT_FALSE(std::filesystem::exists(paths[0]));
 }
 
 TEST(Ktx2, DescriptorsOfBlockFormats) {

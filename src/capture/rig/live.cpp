@@ -6,12 +6,11 @@
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
-#include <opencv2/imgcodecs.hpp>
-#include <opencv2/imgproc.hpp>
-#include <opencv2/videoio.hpp>
 
 #include "sateen/core/error.h"
+#include "sateen/io/camera.h"
 #include "sateen/io/file.h"
+#include "sateen/io/image_encode.h"
 #include "sateen/io/video_reader.h"
 
 namespace sateen::capture {
@@ -21,51 +20,21 @@ namespace {
 
 class V4lCamera final : public LiveCamera {
  public:
-  explicit V4lCamera(int index) {
-    if (!capture_.open(index, cv::CAP_V4L2)) {
-      throw Error(fmt::format(
-          "no camera {} answers (V4L2); look at /dev/video* and whether another program uses it", index));
-    }
-    capture_.set(cv::CAP_PROP_BUFFERSIZE, 1);
-    // Let it adapt to the scene once, then hold it there.
-    cv::Mat frame;
-    for (int i = 0; i < 15; ++i) capture_.read(frame);
-    fix(cv::CAP_PROP_AUTO_EXPOSURE, 1, cv::CAP_PROP_EXPOSURE, "exposure");
-    fix(cv::CAP_PROP_AUTO_WB, 0, cv::CAP_PROP_WB_TEMPERATURE, "white balance");
-    capture_.set(cv::CAP_PROP_AUTOFOCUS, 0);
-  }
+  explicit V4lCamera(int index) : camera_(index) {}
 
-  io::Picture8 shoot() override {
-    cv::Mat frame;
-    // The driver may still hold frames from while the stage moved.
-    for (int i = 0; i < 3; ++i) {
-      if (!capture_.read(frame) || frame.empty())
-        throw Error("the camera delivers no more pictures; is it still plugged in?");
-    }
-    io::Picture8 picture;
-    picture.width = frame.cols;
-    picture.height = frame.rows;
-    picture.rgb.resize(frame.total() * 3);
-    cv::Mat target(frame.rows, frame.cols, CV_8UC3, picture.rgb.data());
-    cv::cvtColor(frame, target, cv::COLOR_BGR2RGB);
-    return picture;
-  }
+  io::Picture8 shoot() override { return camera_.shoot(); }
 
-  std::vector<std::string> warnings() const override { return warnings_; }
+  std::vector<std::string> warnings() const override {
+    std::vector<std::string> warnings;
+    for (const std::string& what : camera_.not_fixed()) {
+      warnings.push_back(
+          fmt::format("the camera's driver does not let its {} be fixed; drift is removed afterwards", what));
+    }
+    return warnings;
+  }
 
  private:
-  void fix(int automatic, double manual, int property, const char* name) {
-    const double now = capture_.get(property);
-    if (capture_.set(automatic, manual)) {
-      capture_.set(property, now);
-    } else {
-      warnings_.push_back(
-          fmt::format("the camera's driver does not let its {} be fixed; drift is removed afterwards", name));
-    }
-  }
-
-  cv::VideoCapture capture_;
-  std::vector<std::string> warnings_;
+  io::Camera camera_;
 };
 
 /// A recording in place of a camera: one frame of it a shot.
@@ -86,17 +55,6 @@ class RecordedCamera final : public LiveCamera {
 
 std::string frame_name(int i) {
   return fmt::format("frame_{:03}.png", i);
-}
-
-/// A frame is there when its file is: files appear whole or not at all.
-void write_frame(const fs::path& path, io::Picture8 picture) {
-  cv::Mat bgr;
-  cv::cvtColor(cv::Mat(picture.height, picture.width, CV_8UC3, picture.rgb.data()), bgr, cv::COLOR_RGB2BGR);
-  std::vector<unsigned char> png;
-  if (!cv::imencode(".png", bgr, png, {cv::IMWRITE_PNG_COMPRESSION, 3})) {
-    throw Error(fmt::format("{}: the camera's picture cannot be encoded", path.string()));
-  }
-  io::write_bytes(path, std::as_bytes(std::span(png)));
 }
 
 /// What capture.json beside the frames says.
@@ -177,7 +135,8 @@ LiveResult capture_live(Stage& stage, LiveCamera& camera, const LiveOptions& opt
     stage.move_to(degrees[static_cast<std::size_t>(i)]);
     const io::Picture8 picture = camera.shoot();
     try {
-      write_frame(path, picture);
+      io::write_bytes(path,
+                      io::encode_png(picture));  // whole or not at all: a frame is there when its file is
     } catch (const Error& error) {
       throw Error(fmt::format("{}. The frames before it are whole: make room, then the same command goes on",
                               error.what()));

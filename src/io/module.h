@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <filesystem>
+
+#include "sateen/io/oiio_module.h"
+#include "sateen/io/video_module.h"
+
+namespace sateen::io {
+
+/// Modules hold what takes hundreds of shared libraries, and are loaded when something needs them: files
+/// beside the program or library, or in ../lib/sateen, or where the environment variable SATEEN_MODULE_PATH
+/// says. Each function throws Error, which says `for_what` the module is needed and what to install, when it
+/// is missing or of another version.
+const OiioModule& oiio_module(const std::string& for_what);
+const VideoModule& video_module(const std::string& for_what);
+
+/// A picture of a format the library itself does not read. Throws Error when OpenImageIO does not either.
+std::unique_ptr<PictureSource> open_with_openimageio(const std::filesystem::path& path);
+
+}  // namespace sateen::io
