@@ -16,7 +16,7 @@ const FibreMoments& moments(Model model) {
   return model == Model::maximum_normal ? kMaximumNormalMoments : kFibreMoments;
 }
 
-constexpr std::array kModels{"lambert", "fibre-diffuse", "maximum-normal"};
+constexpr std::array kBaseModels{"lambert", "fibre-diffuse", "maximum-normal"};
 
 }  // namespace
 
@@ -26,13 +26,13 @@ std::span<const appearance::ParameterField<DiffuseBase>> diffuse_base_parameters
   static const std::array<appearance::ParameterField<DiffuseBase>, 3> fields{{
       {{.name = "model",
         .kind = Parameter::Kind::choice,
-        .choices = {kModels.begin(), kModels.end()},
-        .standard = std::string(kModels[0]),
+        .choices = {kBaseModels.begin(), kBaseModels.end()},
+        .standard = std::string(kBaseModels[0]),
         .help = "formula of the diffuse base"},
-       [](const DiffuseBase& b) { return std::string(kModels[static_cast<std::size_t>(b.model)]); },
+       [](const DiffuseBase& b) { return std::string(kBaseModels[static_cast<std::size_t>(b.model)]); },
        [](DiffuseBase& b, const ParameterValue& v) {
-         const auto found = std::ranges::find(kModels, std::get<std::string>(v));
-         b.model = static_cast<Model>(found - kModels.begin());
+         const auto found = std::ranges::find(kBaseModels, std::get<std::string>(v));
+         b.model = static_cast<Model>(found - kBaseModels.begin());
        }},
       {{.name = "color",
         .kind = Parameter::Kind::color,
