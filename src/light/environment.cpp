@@ -53,22 +53,4 @@ Image read_environment(const std::filesystem::path& path) {
   return image;
 }
 
-Image turned_environment(const Image& environment, double angle) {
-  if (angle == 0) return environment;
-  Image turned(environment.width, environment.height, environment.channels);
-  const double shift = angle / (2 * kPi) * environment.width;
-  for (int y = 0; y < environment.height; ++y) {
-    for (int x = 0; x < environment.width; ++x) {
-      const double from = wrap(x + shift, environment.width);
-      const int left = static_cast<int>(from);
-      const auto blend = static_cast<float>(from - left);
-      const int right = (left + 1) % environment.width;
-      for (int c = 0; c < environment.channels; ++c) {
-        turned.at(x, y, c) = (1 - blend) * environment.at(left, y, c) + blend * environment.at(right, y, c);
-      }
-    }
-  }
-  return turned;
-}
-
 }  // namespace sateen::light

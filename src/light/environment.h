@@ -24,8 +24,4 @@ Vec3 environment_radiance(const Image& environment, const Vec3& direction);
 /// refuses.
 Image read_environment(const std::filesystem::path& path);
 
-/// The surroundings turned about the vertical by `angle` radians, counter-clockwise seen from above: what was
-/// behind the object moves to the viewer's left.
-Image turned_environment(const Image& environment, double angle);
-
 }  // namespace sateen::light

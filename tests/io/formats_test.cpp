@@ -116,6 +116,8 @@ TEST(Formats, EverySampleTypeAndChannelCountIsReadAsOpenImageIoReadsIt) {
         for (const bool tiled : {false, true}) {
           if (tiled && type == OIIO::TypeDesc::DOUBLE)
             continue;  // OpenImageIO 2.4 writes values that are none
+          if (extension == ".webp" && channels == 4)
+            continue;  // OpenImageIO 2.4 multiplies by alpha unasked: compared with its PNG below
           const fs::path path =
               folder / fmt::format("{}_{}{}{}", type.c_str(), channels, tiled ? "_tiled" : "", extension);
           OIIO::ImageSpec spec(37, 43, channels, type);

@@ -25,19 +25,19 @@
 namespace sateen::render {
 namespace {
 
-constexpr int kSide = 96;
+constexpr int kPictureSide = 96;
 
 scene::View view_of(const scene::Scene& scene) {
   return scene::frame_object(scene.mesh, {}, std::array{rotation_xyz({0.4, 0.3, 0})}, 1)[0];
 }
 
 Image picture(const Renderer& renderer, const scene::View& view) {
-  return renderer.render(view, {.width = kSide, .height = kSide, .samples = 1}).colour;
+  return renderer.render(view, {.width = kPictureSide, .height = kPictureSide, .samples = 1}).colour;
 }
 
 /// Whatever draw() puts into a framebuffer, tables ready or not.
 Image drawn(const Renderer& renderer, const scene::View& view) {
-  const gpu::Framebuffer target(kSide, kSide);
+  const gpu::Framebuffer target(kPictureSide, kPictureSide);
   target.bind();
   glClearColor(0, 0, 0, 0);
   glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
@@ -76,13 +76,32 @@ TEST(Changes, LightingMaterialAndSwitchesOfARendererAreThoseOfANewOne) {
   EXPECT_THROW(renderer.set_material(0, {}), Error);
 }
 
+/// The plain way: a latitude-longitude picture shifted along its rows, counter-clockwise seen from above.
+Image turned_environment(const Image& environment, double angle) {
+  if (angle == 0) return environment;
+  Image turned(environment.width, environment.height, environment.channels);
+  const double shift = angle / (2 * kPi) * environment.width;
+  for (int y = 0; y < environment.height; ++y) {
+    for (int x = 0; x < environment.width; ++x) {
+      const double from = wrap(x + shift, environment.width);
+      const int left = static_cast<int>(from);
+      const auto blend = static_cast<float>(from - left);
+      const int right = (left + 1) % environment.width;
+      for (int c = 0; c < environment.channels; ++c) {
+        turned.at(x, y, c) = (1 - blend) * environment.at(left, y, c) + blend * environment.at(right, y, c);
+      }
+    }
+  }
+  return turned;
+}
+
 TEST(Changes, TurningTheEnvironmentIsTurningItsPicture) {
   // A sky that is smooth enough for both: the picture resampled and filtered again, or the matrix.
   const Image sky = test::sky();
   const double angle = radians(70);
   const light::Surroundings by_matrix =
       light::turned(light::make_surroundings(sky), light::turn_about_vertical(angle));
-  const light::Surroundings by_picture = light::make_surroundings(light::turned_environment(sky, angle));
+  const light::Surroundings by_picture = light::make_surroundings(turned_environment(sky, angle));
   std::mt19937 random(3);
   for (int i = 0; i < 200; ++i) {
     const Vec3 d = Vec3::Random().normalized();
@@ -137,8 +156,10 @@ TEST(Changes, WhatTakesLongIsDrawnAsItWasUntilItIsReady) {
 TEST(Changes, ADecomposedMatCapIsDrawnByItsFormulaWhileEditedAndByItsTableWhenIdle) {
   test::context();
   const Image ball = test::test_matcap(96);
+  matcap::DecomposeOptions options;
+  options.map_size = 96;
   const auto matcap = std::make_shared<matcap::DecomposedAppearance>(
-      matcap::unedited(matcap::decompose(ball, {48, 48, 47.5}, {.map_size = 96}, "ball")));
+      matcap::unedited(matcap::decompose(ball, {48, 48, 47.5}, options, "ball")));
   const scene::Scene scene = test::scene_of(test::torus(), matcap);
   const Renderer renderer(scene);
   const scene::View view = view_of(scene);
@@ -147,15 +168,16 @@ TEST(Changes, ADecomposedMatCapIsDrawnByItsFormulaWhileEditedAndByItsTableWhenId
   matcap->set("high.roughness", 0.02);
   const Image formula = drawn(renderer, view);
   EXPECT_EQ(matcap->shader().entry, "matcap_decomposition");
-  const auto difference =
-      test::against_evaluator(test::render(scene, {.width = kSide, .height = kSide}), scene, 0.02);
+  const auto difference = test::against_evaluator(
+      test::render(scene, {.width = kPictureSide, .height = kPictureSide}), scene, 0.02);
   EXPECT_EQ(matcap->shader().entry, "matcap_by_normal");  // a finished picture waits for it
   EXPECT_LT(difference.failing_share(), 0.02) << difference.largest;
   const Image table = picture(renderer, view);
   Image apart = formula;
   for (std::size_t i = 0; i < apart.data.size(); ++i) apart.data[i] -= table.data[i];
-  const double rms = std::sqrt(
-      std::inner_product(apart.data.begin(), apart.data.end(), apart.data.begin(), 0.0) / apart.data.size());
+  const double rms =
+      std::sqrt(std::inner_product(apart.data.begin(), apart.data.end(), apart.data.begin(), 0.0) /
+                static_cast<double>(apart.data.size()));
   EXPECT_LT(rms, 5e-3);
   // Left alone for a while it finds its table by itself.
   matcap->set("turn_y", -40.0);
@@ -266,9 +288,9 @@ TEST(Changes, AContextThatSomebodyElseMadeIsAdopted) {
   const EGLContext context = eglCreateContext(display, nullptr, EGL_NO_CONTEXT, wanted.data());
   ASSERT_NE(context, EGL_NO_CONTEXT);
   ASSERT_EQ(eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, context), EGL_TRUE);
-  const Image there =
-      draw_picture(scene, {.width = kSide, .height = kSide, .samples = 1}, {}, rotation_xyz({0.4, 0.3, 0}))
-          .colour;
+  const Image there = draw_picture(scene, {.width = kPictureSide, .height = kPictureSide, .samples = 1}, {},
+                                   rotation_xyz({0.4, 0.3, 0}))
+                          .colour;
   EXPECT_EQ(eglGetCurrentContext(), context);
   EXPECT_EQ(largest_difference(there, expected), 0);
   eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
@@ -343,13 +365,13 @@ TEST(SurfaceFields, CurvatureOfATorusAlongItsTangents) {
   Mesh mesh = test::torus(0.4, 192, 96);
   geometry::compute_curvature(mesh);
   const scene::Scene scene = test::scene_of(mesh, std::make_shared<scene::Constant>(Vec3::Ones()));
-  const Picture frame =
-      test::render(scene, {.width = kSide, .height = kSide, .rotation = rotation_xyz({0.5, 0.3, 0})});
+  const Picture frame = test::render(
+      scene, {.width = kPictureSide, .height = kPictureSide, .rotation = rotation_xyz({0.5, 0.3, 0})});
   const Mat4 to_view =
       scene::frame_object(mesh, {}, std::array{rotation_xyz({0.5, 0.3, 0})}, 1)[0].view_from_object;
   int seen = 0;
-  for (int y = 0; y < kSide; ++y) {
-    for (int x = 0; x < kSide; ++x) {
+  for (int y = 0; y < kPictureSide; ++y) {
+    for (int x = 0; x < kPictureSide; ++x) {
       const auto s = scene::surface_at(*frame.surfaces, x, y);
       if (!s) continue;
       const Vec3 p = (to_view.inverse() * s->position.homogeneous()).head<3>();

@@ -13,7 +13,7 @@ namespace sateen::brdf {
 /// Layered materials in the forms that the slides print (Patry, "Samurai Shading"), for comparison with
 /// LayeredAppearance.
 struct SlidesMaterial {
-  LayeredMaterial layers;
+  LayeredMaterial layers = {};
   /// The fuzz's integrals by the slides' polynomials and ambient products (fuzz_approximations.h), not by
   /// table. Not with a map of fibres.
   bool polynomials = false;
