@@ -5,8 +5,6 @@
 #include <cmath>
 #include <vector>
 
-#include "sateen/core/colour.h"
-
 namespace sateen {
 namespace {
 
@@ -38,7 +36,7 @@ double automatic_exposure(const Image& light) {
   const double bright = peaks[static_cast<std::size_t>(nth)];
   if (bright <= 0) return 0;
   double stops = 0;
-  for (const Vec3& v : covered) stops += std::log2(std::max(luminance(v), bright * kRange));
+  for (const double peak : peaks) stops += std::log2(std::max(peak, bright * kRange));
   stops /= static_cast<double>(covered.size());
   return std::min(std::log2(kMiddleGrey) - stops, -std::log2(bright));
 }

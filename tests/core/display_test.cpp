@@ -80,7 +80,13 @@ TEST(Exposure, TheMeanIsThatOfLogarithms) {
   EXPECT_NEAR(automatic_exposure(two_by_two(dark, dark, bright, bright)), std::log2(0.18 / 0.03), 1e-5);
 }
 
-// Three dark pixels ask for more, but then the fourth would be whiter than white.
+TEST(Exposure, ADeepColourIsNotLiftedToAPaleOne) {
+  Image light(4, 4, 3);
+  for (int i = 0; i < 16; ++i) light.set_rgb(i % 4, i / 4, {0, 0, 0.18f});
+  EXPECT_NEAR(automatic_exposure(light), 0, 1e-6);
+}
+
+// The dark pixels ask for more, but then the others would be whiter than white.
 TEST(Exposure, BrightPartsKeepTheirDetail) {
   Image light(10, 10, 3, 0.02f);
   for (int x = 0; x < 10; ++x) light.set_rgb(x, 0, {4, 0.5f, 0.25f});

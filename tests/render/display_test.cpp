@@ -14,7 +14,6 @@
 #include "sateen/gpu/texture.h"
 #include "sateen/render/metering.h"
 #include "sateen/scene/constant.h"
-#include "support/meshes.h"
 #include "support/rendering.h"
 #include "support/shapes.h"
 
