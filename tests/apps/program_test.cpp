@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "sateen/io/file.h"
 #include "support/files.h"
 
 namespace sateen {
@@ -33,6 +34,19 @@ TEST(Program, AWrongInputExitsWithOneAndNamesIt) {
   const auto result = run_program("amc info nowhere.ktx2");
   EXPECT_EQ(result.exit_code, 1);
   EXPECT_THAT(result.output, HasSubstr("nowhere.ktx2"));
+}
+
+TEST(Program, WhatAnAbsentModuleWouldReadIsSaidWithWhatIsMissing) {
+  // The program alone in a folder, where its modules are not.
+  const test::TemporaryFolder folder;
+  std::filesystem::copy_file(SATEEN_PROGRAM, folder / "sateen");
+  io::write_text(folder / "film.mp4", "no film, but nobody comes to look");
+  const std::string command = (folder / "sateen").string() + " capture build " +
+                              (folder / "film.mp4").string() + " -o " + (folder / "x.ktx2").string() +
+                              " --fov 40 --angles equal #";
+  const auto result = run_program("", command);
+  EXPECT_EQ(result.exit_code, 1) << result.output;
+  EXPECT_THAT(result.output, testing::AllOf(HasSubstr("sateen-video.so"), HasSubstr("not installed")));
 }
 
 TEST(Program, AFullStandardOutputIsAFailure) {

@@ -9,6 +9,7 @@
 #include "sateen/core/direction.h"
 #include "sateen/core/error.h"
 #include "sateen/io/image.h"
+#include "sateen/io/ktx2.h"
 #include "sateen/scene/registry.h"
 #include "sateen/texture/lobe_files.h"
 #include "sateen/texture/mapped_appearance.h"
@@ -352,6 +353,11 @@ TEST(LobeMips, Ktx2ComesBackAsItWasFiltered) {
     output.green_down = kind == LobeOutput::Kind::ktx2;
     const auto files = write_lobe_chain(source, folder / "weave.ktx2", options, output);
     const LobeMips read = read_lobe_mips(files[0], files[1]);
+    for (const auto& file : files) {
+      const auto metadata = io::read_ktx2_info(file).metadata;
+      EXPECT_TRUE(metadata.contains("sateen.kind")) << file;
+      EXPECT_TRUE(metadata.contains("sateen.version")) << file;
+    }
     EXPECT_EQ(read.green_down, output.green_down);
     EXPECT_EQ(read.encoding, AnisotropyEncoding::root);
     ASSERT_EQ(read.normals.size(), expected.normals.size());
