@@ -10,6 +10,7 @@
 #include "sateen/brdf/fuzz_approximations.h"
 #include "sateen/brdf/layered/point.h"
 #include "sateen/brdf/research/simple_fuzz.h"
+#include "sateen/core/error.h"
 
 namespace sateen::brdf {
 namespace {
@@ -88,14 +89,18 @@ SlidesAppearance::SlidesAppearance(SlidesMaterial material)
     : layers_(std::move(material.layers)),
       polynomials_(material.polynomials),
       simple_fuzziness_(material.simple_fuzziness) {
+  refit();
+}
+
+SlidesAppearance::~SlidesAppearance() = default;
+
+void SlidesAppearance::refit() {
   const LayeredMaterial& layers = layers_.material();
   if (!polynomials_ || !layers.fuzz) return;
   fit_ = std::make_shared<const Fit>(
       Fit{fit_scattered_down(*layers.fuzz, ScatteredDownPolynomial::kSlidesDegree),
           slides_bands(layers, layers_.tables())});
 }
-
-SlidesAppearance::~SlidesAppearance() = default;
 
 std::unique_ptr<appearance::Reflectance::Point> SlidesAppearance::at(
     const appearance::Surface& surface) const {
@@ -143,16 +148,14 @@ ParameterValue SlidesAppearance::get(const std::string& name) const {
 void SlidesAppearance::set(const std::string& name, const ParameterValue& value) {
   if (name == simple_parameter().name) {
     appearance::check(simple_parameter(), value);
+    if (layers_.material().fuzz && std::get<double>(value) > 0) {
+      throw Error("\"simple_fuzziness\" takes the place of fuzz, and this material has some");
+    }
     simple_fuzziness_ = std::get<double>(value);
   } else {
     layers_.set(name, value);
     layers_.settle(true);
-    const LayeredMaterial& layers = layers_.material();
-    if (polynomials_ && layers.fuzz) {
-      fit_ = std::make_shared<const Fit>(
-          Fit{fit_scattered_down(*layers.fuzz, ScatteredDownPolynomial::kSlidesDegree),
-              slides_bands(layers, layers_.tables())});
-    }
+    refit();
   }
   changed();
 }

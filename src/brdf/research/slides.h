@@ -40,6 +40,7 @@ class SlidesAppearance final : public appearance::Reflectance {
 
  private:
   struct Fit;
+  void refit();
 
   LayeredAppearance layers_;
   bool polynomials_;
