@@ -2,10 +2,13 @@
 #include "sateen/io/mesh.h"
 
 #include <algorithm>
+#include <array>
+#include <string_view>
 
 #include <assimp/Importer.hpp>
 #include <assimp/scene.h>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "sateen/io/file.h"
 #include "sateen/io/file_error.h"
@@ -60,19 +63,49 @@ Model read_with_assimp(const fs::path& path, bool join) {
   return model;
 }
 
+Model read_obj(const fs::path& path) {
+  return read_with_assimp(path, true);
+}
+
+Model read_gltf(const fs::path& path) {
+  check_gltf(path);
+  return read_with_assimp(path, false);
+}
+
+struct MeshFormat {
+  std::string_view extension;  ///< lower case with the dot
+  Model (*read)(const fs::path&);
+};
+
+/// One line a format.
+constexpr std::array<MeshFormat, 4> kFormats{{
+    {".obj", read_obj},
+    {".ply", read_ply_model},
+    {".glb", read_gltf},
+    {".gltf", read_gltf},
+}};
+
 }  // namespace
 
+std::span<const std::string> mesh_extensions() {
+  static const std::vector<std::string> extensions = [] {
+    std::vector<std::string> result;
+    for (const MeshFormat& format : kFormats) result.emplace_back(format.extension);
+    return result;
+  }();
+  return extensions;
+}
+
 Model read_model(const fs::path& path) {
-  const std::string extension = extension_of(path);
   std::error_code code;
   if (!fs::exists(path, code)) fail(path, "no such file");
   if (fs::is_directory(path, code)) fail(path, "is a folder, a mesh file is needed");
-  const bool gltf = extension == ".glb" || extension == ".gltf";
-  if (!gltf && extension != ".obj" && extension != ".ply") {
-    fail(path, "is not a mesh that can be read; OBJ, PLY, GLB or glTF is needed");
+  const auto format = std::ranges::find(kFormats, extension_of(path), &MeshFormat::extension);
+  if (format == kFormats.end()) {
+    fail(path,
+         fmt::format("is not a mesh that can be read; known are {}", fmt::join(mesh_extensions(), ", ")));
   }
-  if (gltf) check_gltf(path);
-  Model model = extension == ".ply" ? read_ply_model(path) : read_with_assimp(path, extension == ".obj");
+  Model model = format->read(path);
   if (model.mesh.triangles.empty()) fail(path, "has no triangles");
   return model;
 }

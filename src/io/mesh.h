@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -26,6 +27,9 @@ struct Model {
   Mesh mesh;                            ///< all meshes of the file, node transforms applied, in one
   std::vector<MeshMaterial> materials;  ///< as many as mesh.material_names
 };
+
+/// Extensions of the mesh files that can be read, lower case with the dot.
+std::span<const std::string> mesh_extensions();
 
 /// Reads OBJ, PLY, GLB or glTF. Polygons become triangles; triangles with equal indices or without area are
 /// dropped; unit tangents are kept when the file has them; normals and tangents that are missing are left

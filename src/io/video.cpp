@@ -8,6 +8,7 @@
 #include "sateen/core/colour.h"
 #include "sateen/core/error.h"
 #include "sateen/io/file.h"
+#include "sateen/io/film_formats.h"
 #include "sateen/io/module.h"
 #include "sateen/io/picture_sink.h"
 
@@ -28,7 +29,9 @@ Picture8 frame_of(const Image& linear) {
 
 bool is_video_path(const fs::path& path) {
   const std::string extension = extension_of(path);
-  return extension == ".mp4" || extension == ".mov" || extension == ".avi";
+  return std::ranges::any_of(film_formats(), [&](const FilmFormat& format) {
+    return format.written && format.extension == extension;
+  });
 }
 
 void write_video(const fs::path& path, int count, double frames_per_second,

@@ -7,12 +7,17 @@
 #include <fmt/format.h>
 
 #include "sateen/core/error.h"
+#include "sateen/io/film_formats.h"
 #include "sateen/io/module.h"
 
 namespace sateen::io {
 
 std::span<const std::string> video_extensions() {
-  static const std::array<std::string, 6> extensions{".mp4", ".mov", ".avi", ".mkv", ".webm", ".m4v"};
+  static const std::vector<std::string> extensions = [] {
+    std::vector<std::string> result;
+    for (const FilmFormat& format : film_formats()) result.emplace_back(format.extension);
+    return result;
+  }();
   return extensions;
 }
 

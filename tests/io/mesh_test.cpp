@@ -260,7 +260,7 @@ TEST(MeshFile, WhatIsNoMeshIsNamed) {
   const TemporaryFolder folder;
   EXPECT_THAT(error_of(folder / "none.obj"), HasSubstr("no such file"));
   write_text(folder / "a.txt", "hello");
-  EXPECT_THAT(error_of(folder / "a.txt"), HasSubstr("OBJ, PLY, GLB or glTF"));
+  EXPECT_THAT(error_of(folder / "a.txt"), HasSubstr(".obj, .ply, .glb, .gltf"));
   for (const std::string name : {"a.obj", "a.ply", "a.glb", "a.gltf"}) {
     write_text(folder / name, "this is no mesh\n");
     EXPECT_NE(error_of(folder / name), "no error");
