@@ -51,9 +51,15 @@ void on_message(j_common_ptr info, int level) {
 constexpr int kExifMarker = JPEG_APP0 + 1;
 constexpr int kProfileMarker = JPEG_APP0 + 2;
 
+/// Gives the decoder's memory back, also when a constructor above it throws.
+struct Decompressor {
+  jpeg_decompress_struct info{};
+  ~Decompressor() { jpeg_destroy_decompress(&info); }
+};
+
 /// libjpeg's decoder on bytes in memory. libjpeg fills what is missing or broken with grey and only warns;
 /// here each warning that means lost pixels is an Error.
-class Decoder {
+class Decoder : public Decompressor {
  public:
   Decoder(std::string name, std::span<const std::byte> bytes) : name_(std::move(name)) {
     info.err = jpeg_std_error(&errors_.base);
@@ -68,7 +74,6 @@ class Decoder {
       jpeg_read_header(&info, TRUE);
     });
   }
-  ~Decoder() { jpeg_destroy_decompress(&info); }
   Decoder(const Decoder&) = delete;
   Decoder& operator=(const Decoder&) = delete;
 
@@ -88,8 +93,6 @@ class Decoder {
     }
     return 1;
   }
-
-  jpeg_decompress_struct info{};
 
  private:
   std::string name_;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "sateen/brdf/research/slides.h"
 
+#include <algorithm>
 #include <array>
 
 #include <fmt/format.h>
@@ -10,7 +11,6 @@
 #include "sateen/brdf/fuzz_approximations.h"
 #include "sateen/brdf/layered/point.h"
 #include "sateen/brdf/research/simple_fuzz.h"
-#include "sateen/core/error.h"
 
 namespace sateen::brdf {
 namespace {
@@ -135,22 +135,32 @@ appearance::ShaderValues SlidesAppearance::values() const {
 }
 
 std::vector<Parameter> SlidesAppearance::parameters() const {
+  // The simplified fuzz takes the place of fuzz: a material has one of the two.
+  const bool fuzz = layers_.material().fuzz.has_value();
   std::vector<Parameter> result = layers_.parameters();
-  result.push_back(simple_parameter());
+  if (!fuzz) {
+    std::erase_if(result, [](const Parameter& parameter) { return parameter.name.starts_with("fuzz."); });
+    result.push_back(simple_parameter());
+  }
   return result;
 }
 
+void SlidesAppearance::check_name(const std::string& name) const {
+  const std::vector<Parameter> known = parameters();
+  if (std::ranges::none_of(known, [&](const Parameter& parameter) { return parameter.name == name; })) {
+    appearance::unknown_parameter(name, known);
+  }
+}
+
 ParameterValue SlidesAppearance::get(const std::string& name) const {
-  if (name == simple_parameter().name) return simple_fuzziness_;
-  return layers_.get(name);
+  check_name(name);
+  return name == simple_parameter().name ? ParameterValue(simple_fuzziness_) : layers_.get(name);
 }
 
 void SlidesAppearance::set(const std::string& name, const ParameterValue& value) {
+  check_name(name);
   if (name == simple_parameter().name) {
     appearance::check(simple_parameter(), value);
-    if (layers_.material().fuzz && std::get<double>(value) > 0) {
-      throw Error("\"simple_fuzziness\" takes the place of fuzz, and this material has some");
-    }
     simple_fuzziness_ = std::get<double>(value);
   } else {
     layers_.set(name, value);

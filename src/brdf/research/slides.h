@@ -33,7 +33,7 @@ class SlidesAppearance final : public appearance::Reflectance {
   appearance::ShaderValues values() const override;
   appearance::Needs needs() const override { return layers_.needs(); }
 
-  /// Those of the layers, and simple_fuzziness.
+  /// Those of the layers; without fuzz simple_fuzziness in place of the fuzz's.
   std::vector<appearance::Parameter> parameters() const override;
   appearance::ParameterValue get(const std::string& name) const override;
   void set(const std::string& name, const appearance::ParameterValue& value) override;
@@ -41,6 +41,7 @@ class SlidesAppearance final : public appearance::Reflectance {
  private:
   struct Fit;
   void refit();
+  void check_name(const std::string& name) const;
 
   LayeredAppearance layers_;
   bool polynomials_;
