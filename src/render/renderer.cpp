@@ -19,6 +19,17 @@
 namespace sateen::render {
 namespace {
 
+/// What the mesh offers, which is all that the materials need.
+scene::MeshOffer checked_offer(const scene::Scene& scene) {
+  const scene::MeshOffer offer = scene::offer_of(scene.mesh);
+  if (scene.materials.size() < offer.materials) {
+    throw Error(
+        fmt::format("the mesh has {} materials and {} appearances", offer.materials, scene.materials.size()));
+  }
+  for (const scene::Material& material : scene.materials) check_material(offer, material);
+  return offer;
+}
+
 struct Rectangle {
   int x = 0;
   int y = 0;  ///< from the top
@@ -68,7 +79,7 @@ struct Renderer::Data {
       framebuffers;  ///< by width, height, targets; or a second one
 
   explicit Data(const scene::Scene& scene)
-      : offer(scene::offer_of(scene.mesh)),
+      : offer(checked_offer(scene)),
         geometry(scene),
         materials(scene.materials),
         switches(scene.switches),
@@ -76,11 +87,6 @@ struct Renderer::Data {
         tangent_turn(scene.tangent_turn),
         display(std::array{gpu::shader_file("picture.vert")},
                 gpu::with_needed(std::array{std::string("display.frag")})) {
-    if (materials.size() < offer.materials) {
-      throw Error(
-          fmt::format("the mesh has {} materials and {} appearances", offer.materials, materials.size()));
-    }
-    for (const scene::Material& material : materials) check_material(offer, material);
     forget_passes();
     GLuint name = 0;
     glGenVertexArrays(1, &name);

@@ -43,7 +43,7 @@ TEST(Program, WhatAnAbsentModuleWouldReadIsSaidWithWhatIsMissing) {
   io::write_text(folder / "film.mp4", "no film, but nobody comes to look");
   const std::string command = (folder / "sateen").string() + " capture build " +
                               (folder / "film.mp4").string() + " -o " + (folder / "x.ktx2").string() +
-                              " --fov 40 --angles equal #";
+                              " --fov 40 --angles equal 2>&1 #";
   const auto result = run_program("", command);
   EXPECT_EQ(result.exit_code, 1) << result.output;
   EXPECT_THAT(result.output, testing::AllOf(HasSubstr("sateen-video.so"), HasSubstr("not installed")));
