@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-# find_package(sateen) for outside projects. Shaders are embedded in the library, so that public headers, the library and these
-# CMake files are all there is.
+# find_package(sateen) for outside projects. Shaders are embedded in the library, so that public headers, the library, its
+# modules (src/io/modules) and these CMake files are all there is.
 include(CMakePackageConfigHelpers)
 set(package ${CMAKE_INSTALL_LIBDIR}/cmake/sateen)
 
