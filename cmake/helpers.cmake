@@ -7,13 +7,16 @@ target_compile_options(sateen_options INTERFACE
 if(SATEEN_WERROR)
   target_compile_options(sateen_options INTERFACE -Werror)
 endif()
+# Builds that look for faults check every access.
+target_compile_definitions(sateen_options INTERFACE $<$<CONFIG:Debug>:_GLIBCXX_ASSERTIONS>)
 if(SATEEN_SANITIZE)
   # Line numbers are all a report needs of debug information. GCC 12 sees uninitialised values in its own <regex> when
   # sanitizers are on. The checks left out double the time files take to compile, and where a bad pointer matters the
   # address sanitizer stops too.
   target_compile_options(sateen_options INTERFACE
     -fsanitize=${SATEEN_SANITIZE} -fno-sanitize=null,alignment,object-size,vptr,pointer-overflow
-    -fno-sanitize-recover=all -fno-omit-frame-pointer -O1 -g1 -Wno-maybe-uninitialized)
+    -fno-sanitize-recover=all -fno-omit-frame-pointer -O1 -g1 -UNDEBUG -D_GLIBCXX_ASSERTIONS
+    $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
   target_link_options(sateen_options INTERFACE -fsanitize=${SATEEN_SANITIZE})
 endif()
 

@@ -13,6 +13,7 @@
 #include "sateen/core/error.h"
 #include "sateen/io/file.h"
 #include "sateen/io/image.h"
+#include "sateen/io/json.h"
 
 namespace sateen::cli {
 namespace {
@@ -33,6 +34,7 @@ amc::AmcEncoding chosen_encoding(const std::string& name, bool floating) {
 }
 
 void run(const AmcBuildArguments& arguments) {
+  check_outputs({arguments.output});
   const amc::LoadedFrames loaded = load(arguments.frames);
   amc::SymmetryReport report = amc::analyse_symmetry(loaded.frames, arguments.threshold);
   amc::BuildAmcOptions options;
@@ -61,7 +63,7 @@ void run(const AmcBuildArguments& arguments) {
     description["slices"] = table.slices;
     description["frames"] = loaded.frames.size();
     description["skipped"] = loaded.skipped;
-    print(description.dump(2) + "\n");
+    print(io::json_text(description, 2) + "\n");
   }
 }
 

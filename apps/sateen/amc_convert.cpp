@@ -21,6 +21,7 @@ void add_amc_convert(CLI::App& parent) {
   command->add_option("--encoding", arguments->encoding, "Texels of the output")
       ->check(CLI::IsMember({"keep", "srgb8", "half"}));
   command->callback([arguments] {
+    check_outputs({arguments->output});
     amc::AmcTable table = amc::read_amc(arguments->input);
     if (arguments->encoding != "keep") {
       table.encoding = arguments->encoding == "half" ? amc::AmcEncoding::half : amc::AmcEncoding::srgb8;

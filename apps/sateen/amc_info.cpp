@@ -7,6 +7,7 @@
 #include "command.h"
 #include "commands.h"
 #include "sateen/amc/amc_file.h"
+#include "sateen/io/json.h"
 
 namespace sateen::cli {
 namespace {
@@ -49,7 +50,8 @@ std::string as_text(const nlohmann::json& info) {
   for (const char* key :
        {"symmetry", "isotropic", "encoding", "bytes", "texel_bytes", "version", "maximum"}) {
     const auto& value = info[key];
-    text += fmt::format("  {:<24} {}\n", key, value.is_string() ? value.get<std::string>() : value.dump());
+    text += fmt::format("  {:<24} {}\n", key,
+                        value.is_string() ? value.get<std::string>() : io::json_text(value));
   }
   for (const auto& [key, value] : info["provenance"].items()) {
     text += fmt::format("  {:<24} {}\n", key, value.get<std::string>());
@@ -71,7 +73,7 @@ void add_amc_info(CLI::App& parent) {
   command->add_flag("--json", arguments->json, "Print JSON");
   command->callback([arguments] {
     const nlohmann::json info = describe(arguments->input);
-    print(arguments->json ? info.dump(2) + "\n" : as_text(info));
+    print(arguments->json ? io::json_text(info, 2) + "\n" : as_text(info));
   });
 }
 

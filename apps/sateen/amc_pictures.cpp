@@ -20,8 +20,10 @@ void add_picture_command(CLI::App& parent, const char* name, const char* summary
   CLI::App* command = add_command(parent, name, summary, example);
   command->add_option("amc", arguments->input, "The AMC: .ktx2 or a folder of slices")->required();
   command->add_option("-o,--output", arguments->output, "The picture: .png or .exr")->required();
-  command->callback(
-      [arguments, draw] { io::write_image(arguments->output, draw(amc::read_amc(arguments->input))); });
+  command->callback([arguments, draw] {
+    io::check_image_writable(arguments->output);
+    io::write_image(arguments->output, draw(amc::read_amc(arguments->input)));
+  });
 }
 
 }  // namespace

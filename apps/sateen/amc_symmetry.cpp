@@ -4,6 +4,7 @@
 #include "amc_report.h"
 #include "command.h"
 #include "commands.h"
+#include "sateen/io/json.h"
 
 namespace sateen::cli {
 namespace {
@@ -41,7 +42,7 @@ void add_amc_symmetry(CLI::App& parent) {
   command->callback([arguments] {
     const amc::SymmetryReport report =
         amc::analyse_symmetry(load(arguments->frames).frames, arguments->threshold);
-    print(arguments->json ? to_json(report).dump(2) + "\n" : as_text(report));
+    print(arguments->json ? io::json_text(to_json(report), 2) + "\n" : as_text(report));
   });
 }
 

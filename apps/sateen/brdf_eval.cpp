@@ -31,6 +31,7 @@ void add_brdf_eval(CLI::App& parent) {
   command->add_option("-o,--output", options->output, "JSON list of [r, g, b]: the BRDF without the cosine")
       ->required();
   command->callback([options] {
+    check_outputs({options->output});
     const brdf::BrdfFunction brdf = brdf::read_brdf(options->brdf.model, options->brdf.parameters);
     const std::vector<brdf::DirectionPair> pairs = brdf::read_direction_pairs(options->directions);
     std::vector<Vec3> values(pairs.size());

@@ -32,6 +32,7 @@ void add_brdf_plot(CLI::App& parent) {
     if (options->output.extension() != ".svg") {
       throw CLI::ValidationError("--output", "the drawing is SVG; give a name that ends in .svg");
     }
+    check_outputs({options->output});
     brdf::PlotSettings settings;
     settings.title = options->brdf.model + ", " + options->brdf.parameters.filename().string();
     settings.light_angles.clear();

@@ -16,6 +16,7 @@ struct CaptureBuildArguments {
 };
 
 void run(const CaptureBuildArguments& arguments) {
+  check_outputs(capture_outputs(arguments.capture, arguments.output));
   capture::CaptureOptions options = capture_options(arguments.capture);
   take_stage_angles(arguments.capture, arguments.inputs, options);
   options.progress = progress_bar("capture");

@@ -7,6 +7,7 @@
 #include "sateen/capture/sphere/calibrate.h"
 #include "sateen/io/file.h"
 #include "sateen/io/image.h"
+#include "sateen/io/json.h"
 
 namespace sateen::cli {
 namespace {
@@ -20,20 +21,20 @@ struct CaptureCalibrateArguments {
 };
 
 void run(const CaptureCalibrateArguments& arguments) {
+  check_outputs({arguments.output});
   const auto files = io::expand_inputs(arguments.inputs, io::image_extensions());
   const capture::Calibration found = capture::calibrate(files, arguments.columns, arguments.rows);
   for (const std::string& file : found.unusable)
     warn(fmt::format("{}: no whole chessboard found, left out", file));
   capture::write_camera(arguments.output, found.camera, found.rms_pixels);
   if (!arguments.json) return;
-  print(nlohmann::ordered_json{{"focal", {found.camera.focal.x(), found.camera.focal.y()}},
-                               {"principal", {found.camera.principal.x(), found.camera.principal.y()}},
-                               {"distortion", found.camera.distortion},
-                               {"rms_pixels", found.rms_pixels},
-                               {"used", found.used},
-                               {"left_out", found.unusable}}
-            .dump(2) +
-        "\n");
+  const nlohmann::ordered_json report{{"focal", {found.camera.focal.x(), found.camera.focal.y()}},
+                                      {"principal", {found.camera.principal.x(), found.camera.principal.y()}},
+                                      {"distortion", found.camera.distortion},
+                                      {"rms_pixels", found.rms_pixels},
+                                      {"used", found.used},
+                                      {"left_out", found.unusable}};
+  print(io::json_text(report, 2) + "\n");
 }
 
 }  // namespace

@@ -42,6 +42,7 @@ std::unique_ptr<capture::Stage> open_stage(const CaptureLiveArguments& arguments
 }
 
 void run(const CaptureLiveArguments& arguments) {
+  if (!arguments.output.empty()) check_outputs(capture_outputs(arguments.capture, arguments.output));
   capture::CaptureOptions options = capture_options(arguments.capture);
   const auto stage = open_stage(arguments);
   const auto camera = capture::open_live_camera(arguments.camera);

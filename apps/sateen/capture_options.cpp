@@ -204,12 +204,28 @@ void take_stage_angles(const CaptureArguments& arguments, const std::vector<std:
   if (!options.turn.angles.empty()) options.turn.source = capture::AngleSource::given;
 }
 
+namespace {
+
+std::filesystem::path light_path(std::filesystem::path output) {
+  return output.replace_extension(".light.exr");
+}
+
+}  // namespace
+
+std::vector<std::filesystem::path> capture_outputs(const CaptureArguments& arguments,
+                                                   const std::filesystem::path& output) {
+  std::vector<std::filesystem::path> outputs{output, light_path(output)};
+  if (arguments.report.empty()) return outputs;
+  io::check_writable_folder(arguments.report);
+  if (std::filesystem::is_directory(arguments.report)) {
+    for (const char* name : capture::kReportFiles) outputs.push_back(arguments.report / name);
+  }
+  return outputs;
+}
+
 void report_capture(const CaptureArguments& arguments, const std::filesystem::path& output,
                     const capture::CaptureResult& result) {
-  if (!result.environment.empty()) {
-    std::filesystem::path light = output;
-    io::write_image(light.replace_extension(".light.exr"), result.environment);
-  }
+  if (!result.environment.empty()) io::write_image(light_path(output), result.environment);
   for (const std::string& warning : result.warnings) warn(warning);
   if (!arguments.report.empty()) capture::write_report(arguments.report, result);
 }

@@ -44,6 +44,10 @@ capture::CaptureOptions capture_options(const CaptureArguments& arguments);
 void take_stage_angles(const CaptureArguments& arguments, const std::vector<std::filesystem::path>& inputs,
                        capture::CaptureOptions& options);
 
+/// The files a capture may write. Throws Error when the folder for that cannot be made.
+std::vector<std::filesystem::path> capture_outputs(const CaptureArguments& arguments,
+                                                   const std::filesystem::path& output);
+
 /// Warnings on stderr, the light of a mirror ball beside `output`, the report if a folder for it was named.
 void report_capture(const CaptureArguments& arguments, const std::filesystem::path& output,
                     const capture::CaptureResult& result);

@@ -11,6 +11,8 @@
 
 #include "sateen/core/error.h"
 #include "sateen/core/parallel.h"
+#include "sateen/io/file.h"
+#include "sateen/io/image.h"
 
 namespace sateen::cli {
 
@@ -20,8 +22,27 @@ CLI::App* add_command(CLI::App& parent, const std::string& name, const std::stri
   command->add_option_function<int>("--threads", limit_threads, "Threads to use; 0 means all processors")
       ->check(CLI::NonNegativeNumber)
       ->type_name("INT");
+  command
+      ->add_option_function<std::int64_t>("--max-pixels", io::set_max_pixels,
+                                          "The largest picture, in pixels, to take into memory")
+      ->check(CLI::PositiveNumber)
+      ->default_str(std::to_string(io::max_pixels()))
+      ->type_name("INT");
   command->footer("Example:\n  " + example);
   return command;
+}
+
+void check_outputs(const std::vector<std::filesystem::path>& outputs) {
+  std::vector<std::filesystem::path> files;
+  for (const std::filesystem::path& output : outputs) {
+    if (output.empty()) continue;
+    if (output.has_extension()) {
+      files.push_back(output);
+    } else {
+      io::check_writable_folder(output);
+    }
+  }
+  io::check_writable(files);
 }
 
 Progress progress_bar(std::string label) {

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <filesystem>
 #include <string>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 
@@ -14,6 +16,10 @@ namespace sateen::cli {
 /// parse, call the library, report.
 CLI::App* add_command(CLI::App& parent, const std::string& name, const std::string& summary,
                       const std::string& example);
+
+/// Throws Error unless each of these could be written now: files, and folders for names without extension;
+/// empty names are left out. To be asked before the work, so that nobody waits for nothing.
+void check_outputs(const std::vector<std::filesystem::path>& outputs);
 
 /// A bar on stderr if that is a terminal, shown once the work has lasted a second; otherwise nothing.
 Progress progress_bar(std::string label);

@@ -11,6 +11,7 @@
 #include "commands.h"
 #include "sateen/core/allocation.h"
 #include "sateen/core/error.h"
+#include "sateen/io/file.h"
 #include "sateen/io/warnings.h"
 
 namespace {
@@ -131,6 +132,7 @@ int run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   using sateen::cli::say;
+  sateen::io::remove_temporaries_on_signals();
   sateen::keep_freed_memory();
   sateen::io::set_warning_handler(sateen::cli::warn);
   try {

@@ -62,6 +62,7 @@ void run(const MapsAnisoAuthorArguments& a) {
   if (!a.rotation.empty()) in.rotation = angle_input(a.rotation);
   in.turns_at_one = a.angle_range / 360;
   in.vectors = a.vectors;
+  check_outputs({a.output});
   texture::author_anisotropy(in, a.output, texture::anisotropy_encoding_from_name(a.encoding), a.bits,
                              progress_bar("authoring"));
 }

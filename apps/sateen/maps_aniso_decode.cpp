@@ -32,6 +32,7 @@ void add_maps_aniso_decode(CLI::App& parent) {
       ->check(CLI::IsMember({"root", "correlation"}));
   command->add_option("--bits", a->bits, "Of a PNG")->check(CLI::IsMember({8, 16}));
   command->callback([a] {
+    check_outputs({a->output});
     texture::decode_anisotropy_map(a->input, texture::anisotropy_encoding_from_name(a->encoding),
                                    texture::decode_style_from_name(a->style), a->output, a->bits,
                                    progress_bar("decoding"));

@@ -6,6 +6,7 @@
 #include "commands.h"
 #include "sateen/core/error.h"
 #include "sateen/io/file.h"
+#include "sateen/io/json.h"
 #include "sateen/texture/lobe_files.h"
 
 namespace sateen::cli {
@@ -57,6 +58,7 @@ void run(MapsAnisoFilterArguments a) {
   }
   a.files.encoding = texture::anisotropy_encoding_from_name(a.encoding);
   a.files.normal_format = {a.green_down, a.normal_values == "signed"};
+  check_outputs({a.output});
   texture::LobeFileSource source(a.files);
 
   texture::ChainOptions chain;
@@ -91,7 +93,7 @@ void run(MapsAnisoFilterArguments a) {
     report["height"] = source.height();
     report["repaired_normals"] = source.repaired();
     for (const auto& path : written) report["files"].push_back(path.string());
-    print(report.dump(2) + "\n");
+    print(io::json_text(report, 2) + "\n");
   }
 }
 

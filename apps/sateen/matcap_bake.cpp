@@ -33,6 +33,7 @@ void run(const MatcapBakeArguments& arguments) {
   if (arguments.layers && io::extension_of(arguments.output) != ".exr") {
     throw CLI::ValidationError("--layers", "only .exr has layers");
   }
+  io::check_image_writable(arguments.output);
   std::vector<matcap::Edit> edits;
   if (!arguments.edits.empty()) edits = matcap::read_edits(arguments.edits);
   if (!arguments.turn.empty())

@@ -6,6 +6,7 @@
 #include "command.h"
 #include "commands.h"
 #include "matcap_options.h"
+#include "parse.h"
 #include "sateen/core/error.h"
 #include "sateen/io/file.h"
 #include "sateen/io/image.h"
@@ -23,6 +24,7 @@ struct MatcapDecomposeArguments {
   fs::path output;
   int map_size = 0;
   bool anew = false;
+  std::string shard = "1/1";
 };
 
 void run(const MatcapDecomposeArguments& arguments) {
@@ -33,6 +35,7 @@ void run(const MatcapDecomposeArguments& arguments) {
   options.decompose.map_size = arguments.map_size;
   options.disc = disc_of(arguments.matcap);
   options.program = "sateen " SATEEN_VERSION;
+  check_outputs({arguments.output});
   const auto inputs = io::expand_inputs(arguments.inputs, io::image_extensions());
   if (io::extension_of(arguments.output) == ".ktx2") {
     if (inputs.size() != 1) {
@@ -45,18 +48,21 @@ void run(const MatcapDecomposeArguments& arguments) {
   if (arguments.output.has_extension()) {
     throw CLI::ValidationError("--output", "must be a .ktx2 or a folder (a name without extension)");
   }
-  const auto entries =
-      matcap::decompose_files(inputs, arguments.output, options, arguments.anew, progress_bar("Decomposing"));
+  const auto [number, count] = parse_shard("--shard", arguments.shard);
+  const auto entries = matcap::decompose_files(inputs, arguments.output, options, arguments.anew,
+                                               progress_bar("Decomposing"), {number, count});
   matcap::write_contact_sheet(arguments.output, entries, progress_bar("Contact sheet"));
   std::string failures;
   int failed = 0;
+  int tried = 0;
   for (const matcap::BatchEntry& entry : entries) {
+    tried += entry.elsewhere ? 0 : 1;
     if (entry.failure.empty()) continue;
     ++failed;
     failures += "\n  " + entry.failure;
   }
   if (failed > 0)
-    throw Error(fmt::format("{} of {} MatCaps could not be decomposed:{}", failed, entries.size(), failures));
+    throw Error(fmt::format("{} of {} MatCaps could not be decomposed:{}", failed, tried, failures));
 }
 
 }  // namespace
@@ -76,6 +82,10 @@ void add_matcap_decompose(CLI::App& parent) {
                    "Texels across the sphere maps; 0: the sphere's diameter in pixels, at most 1024")
       ->check(CLI::Range(0, 4096));
   command->add_flag("--anew", arguments->anew, "Make outputs again that an earlier run has finished");
+  command
+      ->add_option("--shard", arguments->shard,
+                   "I/N: take every N-th MatCap from the I-th on, so that N machines share a folder")
+      ->type_name("I/N");
   add_region_options(*command, arguments->matcap);
   add_matcap_options(*command, arguments->matcap);
   command->callback([arguments] { run(*arguments); });

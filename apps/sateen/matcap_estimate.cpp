@@ -9,6 +9,7 @@
 #include "commands.h"
 #include "matcap_options.h"
 #include "sateen/io/file.h"
+#include "sateen/io/json.h"
 #include "sateen/matcap/matcap_picture.h"
 #include "sateen/matcap/signature_plot.h"
 #include "sateen/matcap/warp.h"
@@ -69,6 +70,7 @@ std::string as_text(const char* name, const matcap::FilterEstimate& estimate) {
 }
 
 void run(const MatcapEstimateArguments& arguments) {
+  check_outputs({arguments.plot});
   const std::string name = arguments.input.string();
   const auto regions = regions_of(arguments.matcap);
   const matcap::MatcapPicture picture =
@@ -88,7 +90,7 @@ void run(const MatcapEstimateArguments& arguments) {
     io::write_text(arguments.plot, matcap::signature_svg(curves));
   }
   if (arguments.json) {
-    print(nlohmann::json{{"low", to_json(low)}, {"high", to_json(high)}}.dump(2) + "\n");
+    print(io::json_text(nlohmann::json{{"low", to_json(low)}, {"high", to_json(high)}}, 2) + "\n");
   } else {
     print(as_text("low", low) + as_text("high", high));
   }

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <array>
 #include <filesystem>
 
 #include "command.h"
@@ -27,13 +28,14 @@ void add_matcap_separate(CLI::App& parent) {
   command->add_option("--high", arguments->high, "High part: the MatCap minus the low part")->required();
   add_matcap_options(*command, arguments->matcap);
   command->callback([arguments] {
+    const std::array outputs{arguments->low, arguments->high};
+    check_outputs({arguments->low, arguments->high});
     const matcap::MatcapPicture picture =
         matcap::read_matcap_picture(arguments->input, disc_of(arguments->matcap));
     const matcap::Separation parts =
         matcap::separate(matcap::to_add_up_space(picture.image, space_of(arguments->matcap)), picture.disc,
                          outliers_of(arguments->matcap), arguments->input.string());
-    io::write_data(arguments->low, parts.low);
-    io::write_data(arguments->high, parts.high);
+    io::write_data(outputs, std::array{parts.low, parts.high});
   });
 }
 

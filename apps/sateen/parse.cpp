@@ -35,21 +35,35 @@ std::optional<Vec3> three_numbers(const std::string& text) {
   return result.allFinite() ? std::optional(result) : std::nullopt;
 }
 
+/// The two numbers on either side of a character; nothing otherwise.
+std::optional<std::pair<int, int>> two_numbers(std::string_view text, char between) {
+  const std::size_t at = text.find(between);
+  std::pair<int, int> result;
+  if (at == std::string_view::npos || !read_number(text.substr(0, at), result.first) ||
+      !read_number(text.substr(at + 1), result.second))
+    return std::nullopt;
+  return result;
+}
+
 }  // namespace
 
 std::pair<int, int> parse_size(const std::string& option, const std::string& text) {
-  const std::size_t cross = text.find('x');
-  const std::string_view all = text;
-  int width = 0;
-  int height = 0;
-  const bool read = cross == std::string::npos ? read_number(all, width) && read_number(all, height)
-                                               : read_number(all.substr(0, cross), width) &&
-                                                     read_number(all.substr(cross + 1), height);
+  int square = 0;
+  const auto size = read_number(text, square) ? std::pair{square, square}
+                                              : two_numbers(text, 'x').value_or(std::pair{0, 0});
+  const auto [width, height] = size;
   constexpr int largest = 65536;
-  if (!read || width < 1 || height < 1 || width > largest || height > largest) {
+  if (width < 1 || height < 1 || width > largest || height > largest) {
     fail(option, text, "WIDTHxHEIGHT in pixels, such as 1024x768");
   }
-  return {width, height};
+  return size;
+}
+
+std::pair<int, int> parse_shard(const std::string& option, const std::string& text) {
+  const auto shard = two_numbers(text, '/').value_or(std::pair{0, 0});
+  if (shard.first < 1 || shard.first > shard.second)
+    fail(option, text, "I/N with I from 1 to N, such as 2/8");
+  return shard;
 }
 
 Vec3 parse_vector(const std::string& option, const std::string& text) {

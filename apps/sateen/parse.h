@@ -15,6 +15,9 @@ namespace sateen::cli {
 /// "1024x768", or one number for a square picture; 1 to 65536.
 std::pair<int, int> parse_size(const std::string& option, const std::string& text);
 
+/// "I/N": the I-th of N, from 1.
+std::pair<int, int> parse_shard(const std::string& option, const std::string& text);
+
 /// "X,Y,Z", three numbers.
 Vec3 parse_vector(const std::string& option, const std::string& text);
 

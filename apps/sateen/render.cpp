@@ -13,6 +13,7 @@
 #include "sateen/core/direction.h"
 #include "sateen/core/error.h"
 #include "sateen/gpu/context.h"
+#include "sateen/io/file.h"
 #include "sateen/io/image.h"
 #include "sateen/io/video.h"
 #include "sateen/render/metering.h"
@@ -87,12 +88,6 @@ fs::path first_picture(const RenderArguments& arguments) {
   return many ? numbered(arguments.output, 0) : arguments.output;
 }
 
-void make_folder(const fs::path& folder) {
-  std::error_code code;
-  fs::create_directories(folder, code);
-  if (code) throw Error(fmt::format("{}: cannot be made: {}", folder.string(), code.message()));
-}
-
 void write_aovs(const render::Picture& frame, const fs::path& picture,
                 const std::vector<std::string>& names) {
   for (const std::string& name : names) {
@@ -154,6 +149,17 @@ void check_aovs(const RenderArguments& arguments) {
   }
 }
 
+/// Throws Error unless every picture could be written.
+void check_render_outputs(const RenderArguments& arguments, int count) {
+  check_outputs({arguments.output});
+  if (io::is_video_path(arguments.output) ||
+      !fs::exists(fs::absolute(first_picture(arguments)).parent_path()))
+    return;
+  for (int i = 0; i < count; ++i) {
+    io::check_image_writable(arguments.turntable > 0 ? numbered(arguments.output, i) : arguments.output);
+  }
+}
+
 void run(const RenderArguments& arguments) {
   const render::PictureSettings settings = picture_settings(arguments);
   const std::vector<Mat3> poses = rotations(arguments);
@@ -162,6 +168,7 @@ void run(const RenderArguments& arguments) {
   if (film && arguments.turntable == 0) {
     throw CLI::ValidationError("--output", "a film needs --turntable N, its number of pictures");
   }
+  check_render_outputs(arguments, static_cast<int>(poses.size()));
   const scene::Scene scene = load(arguments.scene);
   const auto views = scene::frame_object(scene.mesh, camera(arguments), poses,
                                          static_cast<double>(settings.width) / settings.height);
@@ -182,7 +189,7 @@ void run(const RenderArguments& arguments) {
                     [&](int i) { return draw(i).colour; });
     return;
   }
-  if (arguments.turntable > 0 && !arguments.output.has_extension()) make_folder(arguments.output);
+  if (arguments.turntable > 0 && !arguments.output.has_extension()) io::make_folder(arguments.output);
   for (int i = 0; i < count; ++i) {
     const fs::path path = arguments.turntable > 0 ? numbered(arguments.output, i) : arguments.output;
     const render::Picture frame = draw(i);

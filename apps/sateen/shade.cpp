@@ -27,6 +27,7 @@ struct ShadeArguments {
 };
 
 void run(const ShadeArguments& arguments) {
+  io::check_image_writable(arguments.output);
   const std::array materials{scene::load_material(arguments.material)};
   scene::LightingOptions lighting = arguments.lighting;
   lighting.environment_turn = radians(arguments.environment_turn);

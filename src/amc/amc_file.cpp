@@ -11,6 +11,7 @@
 #include "sateen/core/parallel.h"
 #include "sateen/io/file.h"
 #include "sateen/io/image.h"
+#include "sateen/io/json.h"
 #include "sateen/io/ktx2.h"
 
 namespace sateen::amc {
@@ -20,6 +21,7 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 
 constexpr int kZstdLevel = 5;  // a few per cent larger than the default and several times faster
+constexpr const char* kDescription = "amc.json";
 constexpr const char* kProvenancePrefix = "sateen.provenance.";
 
 [[noreturn]] void fail(const fs::path& path, const std::string& what) {
@@ -71,8 +73,7 @@ void write_ktx2_table(const fs::path& path, const AmcTable& table) {
   io::write_ktx2(path, texture, kZstdLevel);
 }
 
-AmcTable read_ktx2_table(const fs::path& path) {
-  const io::Ktx2 texture = io::read_ktx2(path);
+void check_amc(const fs::path& path, const io::Ktx2& texture) {
   const auto kind = texture.metadata.find("sateen.kind");
   if (kind == texture.metadata.end() || kind->second != "amc") {
     fail(path, "is a KTX2 texture but no Anisotropic MatCap (its metadata lack sateen.kind = amc)");
@@ -85,6 +86,10 @@ AmcTable read_ktx2_table(const fs::path& path) {
   if (texture.format != io::VkFormat::rgba8_srgb && texture.format != io::VkFormat::rgba16_sfloat) {
     fail(path, "an AMC's texels are RGBA8 sRGB or RGBA half float; this file's are neither");
   }
+}
+
+AmcTable read_ktx2_table(const fs::path& path) {
+  const io::Ktx2 texture = io::read_ktx2(path, [&](const io::Ktx2& info) { check_amc(path, info); });
   AmcTable table(static_cast<int>(texture.width), static_cast<int>(texture.depth),
                  metadata_number(path, texture, "sateen.symmetry"));
   table.encoding = texture.format == io::VkFormat::rgba8_srgb ? AmcEncoding::srgb8 : AmcEncoding::half;
@@ -103,12 +108,16 @@ fs::path slice_path(const fs::path& folder, int slice, AmcEncoding encoding) {
   return folder / fmt::format("slice_{:03}.{}", slice, encoding == AmcEncoding::srgb8 ? "png" : "exr");
 }
 
+/// Whether a file is one that write_folder makes, of this table or of another.
+bool is_part(const std::string& name) {
+  if (name == kDescription) return true;
+  const bool picture = name.ends_with(".png") || name.ends_with(".exr");
+  if (!name.starts_with("slice_") || !picture) return false;
+  const std::string number = name.substr(6, name.size() - 10);
+  return !number.empty() && number.find_first_not_of("0123456789") == std::string::npos;
+}
+
 void write_folder(const fs::path& folder, const AmcTable& table) {
-  std::error_code code;
-  fs::create_directories(folder, code);
-  if (code) fail(folder, "cannot be made: " + code.message());
-  parallel_for(table.slices,
-               [&](int f) { io::write_image(slice_path(folder, f, table.encoding), slice_image(table, f)); });
   const json description = {{"kind", "amc"},
                             {"version", kAmcFileVersion},
                             {"size", table.size},
@@ -117,14 +126,22 @@ void write_folder(const fs::path& folder, const AmcTable& table) {
                             {"isotropic", table.isotropic},
                             {"encoding", table.encoding == AmcEncoding::srgb8 ? "srgb8" : "half"},
                             {"provenance", table.provenance}};
-  io::write_text(folder / "amc.json", description.dump(2) + "\n");
+  io::write_folder_atomically(
+      folder,
+      [&](const fs::path& made) {
+        parallel_for(table.slices, [&](int f) {
+          io::write_image(slice_path(made, f, table.encoding), slice_image(table, f));
+        });
+        io::write_text(made / kDescription, io::json_text(description, 2) + "\n");
+      },
+      is_part);
 }
 
 AmcTable read_folder(const fs::path& folder) {
-  const fs::path file = folder / "amc.json";
+  const fs::path file = folder / kDescription;
   AmcTable table;
   try {
-    const json description = json::parse(io::read_text(file));
+    const json description = io::read_json(file);
     if (description.at("kind") != "amc") fail(file, "'kind' is not 'amc'");
     check_version(file, description.at("version"));
     table = AmcTable(description.at("size"), description.at("slices"), description.at("symmetry"));

@@ -8,14 +8,14 @@
 #include <fmt/ranges.h>
 
 #include "sateen/core/error.h"
-#include "sateen/io/file.h"
+#include "sateen/io/json.h"
 
 namespace sateen::appearance {
 
 namespace {
 
 std::string short_dump(const nlohmann::json& value) {
-  std::string text = value.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+  std::string text = io::json_text(value);
   if (text.size() > 60) text = text.substr(0, 57) + "...";
   return text;
 }
@@ -29,41 +29,7 @@ Vec3 vector_of(const nlohmann::json& value) {
   return {value[0].get<double>(), value[1].get<double>(), value[2].get<double>()};
 }
 
-/// The parser recurses: refuse files nested deeper than any of ours before it sees them.
-void check_depth(const std::string& text, const std::string& file) {
-  int depth = 0;
-  bool quoted = false;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    const char c = text[i];
-    if (quoted) {
-      if (c == '\\') ++i;
-      if (c == '"') quoted = false;
-    } else if (c == '"') {
-      quoted = true;
-    } else if (c == '[' || c == '{') {
-      if (++depth > 64) throw Error(fmt::format("{}: nested more than 64 levels deep", file));
-    } else if (c == ']' || c == '}') {
-      --depth;
-    }
-  }
-}
-
 }  // namespace
-
-nlohmann::json read_json(const std::filesystem::path& path) {
-  const std::string text = io::read_text(path);
-  check_depth(text, path.string());
-  try {
-    return nlohmann::json::parse(text);
-  } catch (const nlohmann::json::parse_error& error) {
-    std::size_t line = 1;
-    const std::size_t end = std::min(error.byte, text.size());
-    for (std::size_t i = 0; i + 1 < end; ++i) line += text[i] == '\n' ? 1 : 0;
-    throw Error(fmt::format("{}: no valid JSON: line {} cannot be read", path.string(), line));
-  } catch (const nlohmann::json::exception&) {
-    throw Error(fmt::format("{}: no valid JSON: a number is out of range", path.string()));
-  }
-}
 
 JsonObject::JsonObject(const nlohmann::json& value, std::string where)
     : value_(&value), where_(std::move(where)) {

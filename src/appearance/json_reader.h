@@ -16,9 +16,6 @@
 
 namespace sateen::appearance {
 
-/// A JSON file. Throws Error naming the file when it is missing, no JSON, or nested absurdly deep.
-nlohmann::json read_json(const std::filesystem::path& path);
-
 /// One JSON object of a user's file, read key by key. Every complaint is an Error that names file, key and
 /// value, and says what would be right; finish() complains about keys nobody asked for.
 class JsonObject {

@@ -13,6 +13,7 @@
 #include "sateen/brdf/parameters.h"
 #include "sateen/core/error.h"
 #include "sateen/io/file.h"
+#include "sateen/io/json.h"
 
 namespace sateen::brdf {
 
@@ -108,17 +109,15 @@ std::span<const std::string> brdf_models() {
 }
 
 BrdfFunction read_brdf(const std::string& model, const std::filesystem::path& parameters) {
-  return function_of(model, appearance::read_json(parameters), parameters.string());
+  return function_of(model, io::read_json(parameters), parameters.string());
 }
 
 BrdfFunction parse_brdf(const std::string& model, const std::string& json, const std::string& where) {
-  const nlohmann::json value = nlohmann::json::parse(json, nullptr, false);
-  if (value.is_discarded()) throw Error(fmt::format("{}: no valid JSON", where));
-  return function_of(model, value, where);
+  return function_of(model, io::parse_json(json, where), where);
 }
 
 std::vector<DirectionPair> read_direction_pairs(const std::filesystem::path& path) {
-  const nlohmann::json list = appearance::read_json(path);
+  const nlohmann::json list = io::read_json(path);
   if (!list.is_array()) {
     throw Error(
         fmt::format("{}: expected a list of {{\"light\": [x, y, z], \"view\": [x, y, z]}}", path.string()));

@@ -2,17 +2,17 @@
 #include "sateen/capture/report.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include "sateen/amc/sheet.h"
 #include "sateen/core/direction.h"
 #include "sateen/core/error.h"
 #include "sateen/io/file.h"
-#include "sateen/io/image.h"
+#include "sateen/io/image_encode.h"
 
 namespace sateen::capture {
 namespace fs = std::filesystem;
@@ -35,13 +35,8 @@ std::string base64(const std::vector<std::byte>& bytes) {
   return text;
 }
 
-/// A picture as a data URL. The file writer goes through a file, which lives beside the report for a moment.
-std::string data_url(const fs::path& folder, const Image& image) {
-  const fs::path temporary = folder / fmt::format(".picture-{}.png", getpid());
-  io::write_image(temporary, image);
-  const auto bytes = io::read_bytes(temporary);
-  fs::remove(temporary);
-  return "data:image/png;base64," + base64(bytes);
+std::string data_url(const Image& image) {
+  return "data:image/png;base64," + base64(io::encode_png(image));
 }
 
 std::string escaped(const std::string& text) {
@@ -229,13 +224,7 @@ std::string facts(const CaptureResult& result) {
 }  // namespace
 
 void write_report(const fs::path& folder, const CaptureResult& result) {
-  std::error_code code;
-  fs::create_directories(folder, code);
-  if (code || !fs::is_directory(folder)) {
-    throw Error(fmt::format("{}: cannot be made as a folder for the report", folder.string()));
-  }
-  io::write_text(folder / "report.json", report_json(result));
-
+  io::make_folder(folder);
   std::string warnings;
   for (const std::string& warning : result.warnings) warnings += "<li>" + escaped(warning) + ".</li>";
   const std::string verdict =
@@ -251,8 +240,8 @@ void write_report(const fs::path& folder, const CaptureResult& result) {
   }
   if (!dropped.empty()) dropped = "<h2>Frames left out</h2><ul>" + dropped + "</ul>";
   const auto picture = [&](const Image& image, const std::string& caption) {
-    return fmt::format("<figure><img src='{}' alt='{}'><figcaption>{}</figcaption></figure>",
-                       data_url(folder, image), caption, caption);
+    return fmt::format("<figure><img src='{}' alt='{}'><figcaption>{}</figcaption></figure>", data_url(image),
+                       caption, caption);
   };
   const Vec2 middle = result.mounting.sphere.centre_pixel(result.lens.camera);
   const std::string html = fmt::format(
@@ -264,7 +253,7 @@ void write_report(const fs::path& folder, const CaptureResult& result) {
       "it. Pink: the tangent's direction in this frame.</small></p><h2>Slices</h2>{}<h2>Frame by frame</h2>"
       "<div class='row'>{}{}{}{}</div><h2>Symmetry</h2><div class='row'>{}</div><h2>Seams and highlights</h2>"
       "<div class='row'>{}{}</div>{}</html>\n",
-      kStyle, verdict, facts(result), framing(result, data_url(folder, result.preview)),
+      kStyle, verdict, facts(result), framing(result, data_url(result.preview)),
       picture(amc::contact_sheet(result.table.amc),
               "Slices at eight tangent angles, and two cuts along the angle"),
       chart(result, "Turned", "degrees", [](const CaptureFrame& f) { return degrees(f.turned); }),
@@ -275,7 +264,8 @@ void write_report(const fs::path& folder, const CaptureResult& result) {
       symmetry_chart(result.table.symmetry),
       picture(mask_picture(result), "The surface as it lies in the first frame; red: masked"),
       picture(clipped_picture(result.clipping.picture), "Bright: clipped in many frames"), dropped);
-  io::write_text(folder / "report.html", html);
+  io::write_texts(std::array{folder / kReportFiles[0], folder / kReportFiles[1]},
+                  std::array{report_json(result), html});
 }
 
 }  // namespace sateen::capture

@@ -5,6 +5,7 @@
 
 #include "sateen/capture/advice.h"
 #include "sateen/capture/report.h"
+#include "sateen/io/json.h"
 
 namespace sateen::capture {
 namespace {
@@ -84,7 +85,7 @@ std::string report_json(const CaptureResult& result) {
   json["table"] = {
       {"size", table.size}, {"slices", table.slices}, {"measured", fine(result.table.seen_share)}};
   json["warnings"] = result.warnings;
-  return json.dump(2) + "\n";
+  return io::json_text(json, 2) + "\n";
 }
 
 }  // namespace sateen::capture

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <functional>
 #include <stdexcept>
+#include <string>
 
 namespace sateen {
 
@@ -11,5 +13,9 @@ class Error : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
+
+/// Calls `work` and returns what went wrong, whatever it threw, or an empty text: of many things each fails
+/// alone. An Error's message stands as it is, others are told of `name`.
+std::string failure_of(const std::string& name, const std::function<void()>& work);
 
 }  // namespace sateen

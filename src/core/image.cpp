@@ -71,11 +71,23 @@ bool fits(const PixelRect& region, int width, int height) {
          region.width <= width - region.x && region.height <= height - region.y;
 }
 
+PixelRect overlap(const PixelRect& region, int width, int height) {
+  const auto part = [](int begin, int length, int most) {
+    const long long end = std::min<long long>(most, static_cast<long long>(begin) + length);
+    const long long first = std::clamp<long long>(begin, 0, most);
+    return std::pair{static_cast<int>(first), static_cast<int>(std::max(0LL, end - first))};
+  };
+  const auto [x, columns] = part(region.x, region.width, width);
+  const auto [y, rows] = part(region.y, region.height, height);
+  return {x, y, columns, rows};
+}
+
 Image cropped(const Image& image, const PixelRect& region) {
   Image result(region.width, region.height, image.channels);
+  const auto columns = static_cast<std::size_t>(region.width) * static_cast<std::size_t>(image.channels);
   for (int y = 0; y < region.height; ++y) {
     const float* row = image.data.data() + image.index(region.x, region.y + y);
-    std::copy_n(row, result.index(0, 1), result.data.data() + result.index(0, y));
+    std::copy_n(row, columns, result.data.data() + result.index(0, y));
   }
   return result;
 }

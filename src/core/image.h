@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cassert>
 #include <cstddef>
 #include <span>
 #include <vector>
@@ -31,6 +32,7 @@ struct Image {
 
   bool empty() const { return data.empty(); }
   std::size_t index(int x, int y) const {
+    assert(x >= 0 && x < width && y >= 0 && y < height);  // in unoptimised and sanitizer builds
     return pixel_index(x, y, width) * static_cast<std::size_t>(channels);
   }
   float& at(int x, int y, int c) { return data[index(x, y) + static_cast<std::size_t>(c)]; }
@@ -63,6 +65,9 @@ struct PixelRect {
 
 /// Whether a region holds at least one pixel and lies inside a width x height picture.
 bool fits(const PixelRect& region, int width, int height);
+
+/// The part of a region inside a width x height picture; empty where they do not meet, whatever the numbers.
+PixelRect overlap(const PixelRect& region, int width, int height);
 
 /// The pixels of a region that fits.
 Image cropped(const Image& image, const PixelRect& region);

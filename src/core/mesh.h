@@ -29,4 +29,7 @@ struct Mesh {
   std::vector<std::string> material_names;
 };
 
+/// Throws Error unless all that is said of the arrays' lengths and indices above is true.
+void check(const Mesh& mesh);
+
 }  // namespace sateen

@@ -9,7 +9,10 @@
 namespace sateen {
 
 void parallel_for(int count, const std::function<void(int)>& body) {
-  tbb::parallel_for(0, count, body);
+  // A context of its own: oneTBB would otherwise cancel this loop, without a word, when a loop around it
+  // stops for an exception somewhere else, and what is half-done here would pass for done.
+  tbb::task_group_context alone(tbb::task_group_context::isolated);
+  tbb::parallel_for(0, count, body, alone);
 }
 
 void limit_threads(int threads) {

@@ -2,9 +2,9 @@
 #include "sateen/io/file.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cctype>
 #include <cerrno>
+#include <set>
 #include <system_error>
 
 #include <fcntl.h>
@@ -12,6 +12,7 @@
 #include <unistd.h>
 
 #include "sateen/core/error.h"
+#include "sateen/io/temporary.h"
 
 namespace sateen::io {
 namespace {
@@ -58,50 +59,120 @@ struct Closer {
 
 }  // namespace
 
-void write_atomically(const fs::path& target, const std::function<void(const fs::path&)>& write) {
-  static std::atomic<unsigned> counter{0};
+namespace {
+
+/// Where writing to `target` ends up: renaming over a link would replace the link and leave its file as it
+/// was.
+fs::path destination_of(const fs::path& target) {
   std::error_code code;
-  // Renaming over a link would replace the link and leave the file it points to as it was.
-  const fs::path destination = fs::is_symlink(target, code) ? fs::weakly_canonical(target, code) : target;
-  const fs::path folder = destination.has_parent_path() ? destination.parent_path() : fs::path(".");
-  if (!fs::is_directory(folder, code)) {
-    throw Error(
-        fmt::format("{}: cannot be written: the folder {} does not exist", target.string(), folder.string()));
-  }
-  if (fs::is_directory(target, code))
-    throw Error(fmt::format("{}: cannot be written: it is a folder", target.string()));
-  if (fs::exists(target, code) && !fs::is_regular_file(target, code))
-    throw Error(
-        fmt::format("{}: cannot be written: it is a device or pipe, a file is needed", target.string()));
-  if (access(folder.c_str(), W_OK) != 0) fail_errno("write", target);
-  const fs::path temporary =
-      folder / fmt::format(".sateen-{}-{}{}", getpid(), counter++, target.extension().string());
+  return fs::is_symlink(target, code) ? fs::weakly_canonical(target, code) : target;
+}
+
+[[noreturn]] void fail_to_write(const fs::path& target, const std::string& why) {
+  throw Error(fmt::format("{}: cannot be written: {}", target.string(), why));
+}
+
+void check_folder(const fs::path& target, const fs::path& folder) {
+  std::error_code code;
+  if (!fs::is_directory(folder, code))
+    fail_to_write(target, fmt::format("the folder {} does not exist", folder.string()));
+  if (access(folder.c_str(), W_OK | X_OK) != 0) fail_errno("write", target);
+}
+
+fs::path folder_of(const fs::path& path) {
+  return path.has_parent_path() ? path.parent_path() : fs::path(".");
+}
+
+void check_writable(const fs::path& target) {
+  const fs::path destination = destination_of(target);
+  std::error_code code;
+  check_folder(target, folder_of(destination));
+  const fs::file_status there = fs::status(destination, code);
+  if (fs::is_directory(there)) fail_to_write(target, "it is a folder");
+  if (fs::exists(there) && !fs::is_regular_file(there))
+    fail_to_write(target, "it is a device or pipe, a file is needed");
+  constexpr auto kAnybodyWrites = fs::perms::owner_write | fs::perms::group_write | fs::perms::others_write;
+  if (fs::exists(there) && (there.permissions() & kAnybodyWrites) == fs::perms::none)
+    fail_to_write(target, "it is read-only");
+}
+
+/// Puts all in their places, or none; the first gets there last.
+void take_places(std::vector<Temporary>& temporaries) {
+  for (const Temporary& temporary : temporaries) temporary.flush();
+  auto next = temporaries.rbegin();
   try {
-    write(temporary);
-    fs::rename(temporary, destination);
-  } catch (const fs::filesystem_error& error) {
-    fs::remove(temporary, code);
-    throw Error(fmt::format("{}: cannot be written: {}", target.string(), error.code().message()));
+    for (; next != temporaries.rend(); ++next) next->take_place();
   } catch (...) {
-    fs::remove(temporary, code);
+    for (auto done = temporaries.rbegin(); done != next; ++done) done->give_back();
     throw;
   }
 }
 
+}  // namespace
+
+void check_writable(std::span<const fs::path> targets) {
+  std::set<fs::path> seen;
+  for (const fs::path& target : targets) {
+    check_writable(target);
+    std::error_code code;
+    if (!seen.insert(fs::weakly_canonical(target, code)).second)
+      throw Error(fmt::format("{}: would be written twice; give two names", target.string()));
+  }
+}
+
+void check_writable_folder(const fs::path& folder) {
+  std::error_code code;
+  fs::path there = fs::absolute(folder, code);
+  while (!fs::exists(there, code) && there.has_relative_path()) there = there.parent_path();
+  if (!fs::is_directory(there, code))
+    fail_to_write(folder, there.string() + " is a file, a folder is needed");
+  check_folder(folder, there);
+}
+
+void make_folder(const fs::path& folder) {
+  check_writable_folder(folder);
+  std::error_code code;
+  fs::create_directories(folder, code);
+  if (code) throw Error(fmt::format("{}: cannot be made: {}", folder.string(), code.message()));
+}
+
 void write_atomically(std::span<const fs::path> targets,
                       const std::function<void(std::span<const fs::path>)>& write) {
-  std::vector<fs::path> temporaries;
-  const std::function<void()> next = [&] {
-    if (temporaries.size() == targets.size()) {
-      write(temporaries);
-      return;
-    }
-    write_atomically(targets[temporaries.size()], [&](const fs::path& temporary) {
-      temporaries.push_back(temporary);
-      next();
-    });
-  };
-  next();
+  check_writable(targets);
+  std::vector<Temporary> temporaries;
+  std::vector<fs::path> names;
+  for (const fs::path& target : targets) {
+    temporaries.emplace_back(destination_of(target), Temporary::Kind::file);
+    names.push_back(temporaries.back().path());
+  }
+  write(names);
+  take_places(temporaries);
+}
+
+void write_atomically(const fs::path& target, const std::function<void(const fs::path&)>& write) {
+  write_atomically(std::span(&target, 1), [&](std::span<const fs::path> names) { write(names[0]); });
+}
+
+void write_folder_atomically(const fs::path& target, const std::function<void(const fs::path&)>& write,
+                             const std::function<bool(const std::string&)>& is_part) {
+  fs::path destination = destination_of(target);
+  if (!destination.has_filename()) destination = destination.parent_path();  // "folder/"
+  std::error_code code;
+  if (fs::exists(destination, code) && !fs::is_directory(destination, code))
+    fail_to_write(target, "it is a file, a folder is needed");
+  make_folder(folder_of(destination));
+  std::vector<Temporary> temporary;
+  temporary.emplace_back(destination, Temporary::Kind::folder);
+  const fs::path& made = temporary[0].path();
+  write(made);
+  for (const auto& entry : fs::directory_iterator(destination, code)) {
+    const std::string name = entry.path().filename().string();
+    if (is_part(name) || fs::exists(made / name, code)) continue;
+    fs::create_hard_link(entry.path(), made / name, code);
+    if (code)
+      fail_to_write(target, fmt::format("the folder holds {}, which is no part of it; choose another", name));
+  }
+  take_places(temporary);
 }
 
 namespace {
@@ -138,7 +209,15 @@ void write_bytes(std::span<const fs::path> targets, std::span<const std::vector<
 }
 
 void write_text(const fs::path& target, const std::string& text) {
-  write_bytes(target, std::as_bytes(std::span(text.data(), text.size())));
+  write_texts(std::span(&target, 1), std::span(&text, 1));
+}
+
+void write_texts(std::span<const fs::path> targets, std::span<const std::string> texts) {
+  write_atomically(targets, [&](std::span<const fs::path> temporaries) {
+    for (std::size_t i = 0; i < targets.size(); ++i) {
+      put_bytes(temporaries[i], targets[i], std::as_bytes(std::span(texts[i])));
+    }
+  });
 }
 
 std::vector<std::byte> read_bytes(const fs::path& path) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <span>
@@ -22,6 +23,10 @@ struct ReadImageOptions {
   Encoding encoding = Encoding::automatic;
   bool allow_non_finite = false;         ///< otherwise a NaN or infinity is an Error that names the pixel
   std::optional<PixelRect> region = {};  ///< read only these pixels; an Error if they leave the picture
+  /// 0, or the most pixels along a side: a larger picture is averaged, in linear light, over squares of a
+  /// whole number of pixels, those at the right and lower edge less. Plain files never take the memory of
+  /// all.
+  int most_across = 0;
 };
 
 /// What a file says of itself, without decoding its pixels; the size is the one read_image returns.
@@ -35,6 +40,11 @@ struct ImageInfo {
 
 /// Extensions of the picture files that can be read, lower case with the dot.
 std::span<const std::string> image_extensions();
+
+/// The most pixels of a picture that read_image and read_data keep in memory, for the whole process: larger
+/// ones are an Error. 2^28 at first. Those that are read row by row (image_rows.h) have no limit.
+void set_max_pixels(std::int64_t pixels);
+std::int64_t max_pixels();
 
 /// Throws Error when the file is missing or no picture.
 ImageInfo read_image_info(const std::filesystem::path& path);
@@ -56,9 +66,15 @@ Image read_data(const std::filesystem::path& path, bool allow_non_finite = false
 /// alpha. Atomic. Throws Error for another extension and when the file cannot be written.
 void write_image(const std::filesystem::path& path, const Image& image);
 
+/// Throws Error unless write_image could write there now (file.h). Ask before long work.
+void check_image_writable(const std::filesystem::path& path);
+
 /// Writes samples as they are: .exr as 32-bit float, .png as 16 bit clamped to [0, 1]. Atomic. Throws as
 /// write_image.
 void write_data(const std::filesystem::path& path, const Image& image);
+
+/// The same for pictures that belong together: all files appear, or none. One path a picture.
+void write_data(std::span<const std::filesystem::path> paths, std::span<const Image> images);
 
 /// One EXR with the channels NAME.R, NAME.G, NAME.B (and .A) for each layer, half float, linear. Atomic.
 /// Throws Error when the layers differ in size or the file cannot be written.

@@ -17,10 +17,30 @@ struct ImageRowReader::File {
   explicit File(const std::filesystem::path& path)
       : source(open_picture(path)), values(source->header(), false) {}
 
+  /// Row `y` of the picture that is shown: stored rows before it are passed over; what is not stored is 0.
+  void read_row(int y, std::span<float> out) {
+    const PictureHeader& header = source->header();
+    const PixelRect window = shown_window(header);
+    const std::size_t channels = out.size() / static_cast<std::size_t>(window.width);
+    std::ranges::fill(out, 0.0f);
+    const int wanted = y + window.y;
+    if (wanted < 0 || wanted >= header.height) return;
+    row.resize(header.row_bytes());
+    for (; stored <= wanted; ++stored) source->read(1, row.data());
+    const int first = std::max(0, window.x);
+    const int last = std::min(header.width, window.x + window.width);
+    if (first >= last) return;
+    const std::size_t pixel = header.row_bytes() / static_cast<std::size_t>(header.width);
+    values.convert(row.data() + pixel * static_cast<std::size_t>(first),
+                   static_cast<std::size_t>(last - first),
+                   out.data() + channels * static_cast<std::size_t>(first - window.x));
+  }
+
   std::unique_ptr<PictureSource> source;
   SampleValues values;
-  std::vector<std::byte> rows;  ///< just read, as the file has them
-  Image whole;                  ///< of a JPEG that had to be turned
+  std::vector<std::byte> row;  ///< just read, as the file has it
+  int stored = 0;              ///< rows read so far
+  Image whole;                 ///< of a JPEG that had to be turned
 };
 
 ImageRowReader::ImageRowReader(const std::filesystem::path& path)
@@ -32,9 +52,6 @@ ImageRowReader::ImageRowReader(const std::filesystem::path& path)
     file_->whole = read_data(path);
   } else if (header.orientation > 1) {
     fail(path, "is turned by its EXIF orientation; save it upright");
-  } else if (info_.width != header.width || info_.height != header.height || header.window.x != 0 ||
-             header.window.y != 0) {
-    fail(path, "stores another part of its picture than it shows (its data window); save it whole");
   }
 }
 
@@ -44,9 +61,8 @@ void ImageRowReader::read(std::span<float> out) {
   const std::size_t row = static_cast<std::size_t>(width()) * static_cast<std::size_t>(channels());
   const int count = static_cast<int>(out.size() / row);
   if (file_->whole.empty()) {
-    file_->rows.resize(file_->source->header().row_bytes() * static_cast<std::size_t>(count));
-    file_->source->read(count, file_->rows.data());
-    file_->values.convert(file_->rows.data(), out.size() / static_cast<std::size_t>(channels()), out.data());
+    for (int i = 0; i < count; ++i)
+      file_->read_row(next_ + i, out.subspan(static_cast<std::size_t>(i) * row, row));
   } else {
     std::copy_n(file_->whole.data.begin() + static_cast<std::ptrdiff_t>(row) * next_, out.size(),
                 out.begin());

@@ -15,8 +15,8 @@ namespace sateen::io {
 /// Values as read_data gives them: integers scaled to [0, 1], no colour conversion.
 class ImageRowReader {
  public:
-  /// Throws Error as read_image_info does, and for a picture its EXIF data turn (rows then are no rows of the
-  /// file), JPEGs apart.
+  /// As large as read_image shows it. Throws Error as read_image_info does, and for a picture its EXIF data
+  /// turn (rows then are no rows of the file), JPEGs apart.
   explicit ImageRowReader(const std::filesystem::path& path);
   ~ImageRowReader();
   ImageRowReader(const ImageRowReader&) = delete;

@@ -68,14 +68,19 @@ void write_samples(const PictureFormat& format, std::FILE* stream, const std::st
   sink->finish();
 }
 
+/// Into a file called `temporary` that messages call `path`.
+void put_picture(const fs::path& temporary, const fs::path& path, const PictureFormat& format,
+                 const PictureLayout& layout, const Image& image) {
+  if (image.empty()) fail(path, "cannot be written: the picture has no pixels");
+  FileStream file = create_file(temporary, path.string());
+  write_samples(format, file.get(), path.string(), layout, image);
+  close_written(std::move(file), path.string());
+}
+
 void write(const fs::path& path, const PictureFormat& format, const PictureLayout& layout,
            const Image& image) {
-  if (image.empty()) fail(path, "cannot be written: the picture has no pixels");
-  write_atomically(path, [&](const fs::path& temporary) {
-    FileStream file = create_file(temporary, path.string());
-    write_samples(format, file.get(), path.string(), layout, image);
-    close_written(std::move(file), path.string());
-  });
+  write_atomically(path,
+                   [&](const fs::path& temporary) { put_picture(temporary, path, format, layout, image); });
 }
 
 /// The samples that a file of this format holds of a picture, and how.
@@ -142,11 +147,27 @@ void write_image(const fs::path& path, const Image& image) {
   write(path, format, out.layout, out.image);
 }
 
+void check_image_writable(const fs::path& path) {
+  format_to_write(path);
+  check_writable(std::span(&path, 1));
+}
+
 void write_data(const fs::path& path, const Image& image) {
-  const std::string extension = extension_of(path);
-  if (extension != ".png" && extension != ".exr") fail(path, "data pictures are written as .exr or .png");
-  const auto samples = extension == ".png" ? RowSamples::u16 : RowSamples::f32;
-  write(path, format_to_write(path), layout_of(image, samples), image);
+  write_data(std::span(&path, 1), std::span(&image, 1));
+}
+
+void write_data(std::span<const fs::path> paths, std::span<const Image> images) {
+  for (const fs::path& path : paths) {
+    const std::string extension = extension_of(path);
+    if (extension != ".png" && extension != ".exr") fail(path, "data pictures are written as .exr or .png");
+  }
+  write_atomically(paths, [&](std::span<const fs::path> temporaries) {
+    for (std::size_t i = 0; i < paths.size(); ++i) {
+      const auto samples = extension_of(paths[i]) == ".png" ? RowSamples::u16 : RowSamples::f32;
+      put_picture(temporaries[i], paths[i], format_to_write(paths[i]), layout_of(images[i], samples),
+                  images[i]);
+    }
+  });
 }
 
 void write_layers(const fs::path& path, std::span<const ImageLayer> layers) {

@@ -16,7 +16,9 @@
 
 #include "sateen/core/error.h"
 #include "sateen/core/parallel.h"
+#include "sateen/io/checksum.h"
 #include "sateen/io/file.h"
+#include "sateen/io/image.h"
 #include "sateen/io/ktx2_format.h"
 
 // The file as KTX 2.0 (section 3) lays it out: identifier, header, level index, data format descriptor,
@@ -279,8 +281,27 @@ void append(std::vector<std::byte>& out, const void* data, std::size_t bytes) {
   out.insert(out.end(), begin, begin + bytes);
 }
 
+// The checksum of a file is that of its bytes with zeros for the checksum's digits.
+constexpr const char* kChecksumKey = "sateen.checksum";
+const std::string kNoChecksum(32, '0');
+
+/// The digits of a file's checksum; empty if it has none.
+std::span<std::byte> checksum_digits(std::vector<std::byte>& file) {
+  const std::string entry = std::string(kChecksumKey) + '\0';
+  const auto key = std::as_bytes(std::span(entry));
+  const auto found = std::search(file.begin(), file.end(), key.begin(), key.end());
+  const auto digits = static_cast<std::size_t>(found - file.begin()) + key.size();
+  if (found == file.end() || digits + kNoChecksum.size() > file.size()) return {};
+  return std::span(file).subspan(digits, kNoChecksum.size());
+}
+
+void set_digits(std::span<std::byte> digits, const std::string& text) {
+  std::ranges::copy(std::as_bytes(std::span(text)), digits.begin());
+}
+
 std::vector<std::byte> packed_metadata(std::map<std::string, std::string> metadata) {
   metadata["KTXwriter"] = "Sateen " SATEEN_VERSION;
+  if (metadata.contains("sateen.kind")) metadata[kChecksumKey] = kNoChecksum;
   std::vector<std::byte> out;
   for (const auto& [key, value] : metadata) {  // a map is sorted, as the format demands
     const auto length = static_cast<std::uint32_t>(key.size() + value.size() + 2);
@@ -299,6 +320,7 @@ std::vector<std::byte> deflate(const fs::path& path, std::span<const std::byte> 
   // without threads refuses them and does without.
   ZSTD_CCtx_setParameter(context.get(), ZSTD_c_nbWorkers, thread_limit());
   ZSTD_CCtx_setParameter(context.get(), ZSTD_c_jobSize, 1 << 20);
+  ZSTD_CCtx_setParameter(context.get(), ZSTD_c_checksumFlag, 1);  // readers see a flipped bit
   std::vector<std::byte> packed(ZSTD_compressBound(level.size()));
   const std::size_t bytes =
       ZSTD_compress2(context.get(), packed.data(), packed.size(), level.data(), level.size());
@@ -348,10 +370,27 @@ Ktx2 read_ktx2_info(const fs::path& path) {
   return read_header(Reader(path, bytes)).texture;
 }
 
-Ktx2 read_ktx2(const fs::path& path) {
+bool ktx2_is_whole(const fs::path& path) {
+  std::vector<std::byte> bytes = read_bytes(path);
+  const std::span<std::byte> digits = checksum_digits(bytes);
+  const std::string said(reinterpret_cast<const char*>(digits.data()), digits.size());
+  set_digits(digits, kNoChecksum.substr(0, digits.size()));
+  return said == checksum(bytes);
+}
+
+Ktx2 read_ktx2(const fs::path& path, const std::function<void(const Ktx2&)>& check) {
   const std::vector<std::byte> bytes = read_bytes(path);
   const Reader file(path, bytes);
   auto [texture, levels, compressed] = read_header(file);
+  if (check) check(texture);
+  const double texels = 1.0 * texture.width * texture.height * std::max(1u, texture.depth) *
+                        std::max(1u, texture.layers) * texture.faces;
+  if (texels > static_cast<double>(max_pixels())) {
+    file.fail(fmt::format(
+        "has {} x {} x {} texels in {} layers; {} texels are the most that are read (--max-pixels)",
+        texture.width, texture.height, std::max(1u, texture.depth), std::max(1u, texture.layers),
+        max_pixels()));
+  }
   for (std::uint32_t i = 0; i < levels; ++i)
     texture.levels.push_back(read_level(file, texture, i, compressed));
   return texture;
@@ -399,6 +438,7 @@ std::vector<std::byte> file_bytes(const fs::path& path, const Ktx2& texture, int
     std::memcpy(out.data() + kIndexOffset + i * sizeof entry, &entry, sizeof entry);
     append(out, level.data(), level.size());
   }
+  if (texture.metadata.contains("sateen.kind")) set_digits(checksum_digits(out), checksum(out));
   return out;
 }
 

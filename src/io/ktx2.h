@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <span>
 #include <string>
@@ -45,17 +46,22 @@ struct Ktx2 {
 std::size_t ktx2_level_bytes(const Ktx2& texture, std::uint32_t level);
 
 /// Reads any KTX2 in the formats above, uncompressed or with Zstandard supercompression.
-/// Throws Error naming the file when it is no KTX2, truncated, larger than its bytes can hold, or in another
-/// format.
-Ktx2 read_ktx2(const std::filesystem::path& path);
+/// `check` is shown all but the levels before there is memory for them, and may throw. Throws Error naming
+/// the file when it is no KTX2, truncated, larger than its bytes can hold, in another format, or of more
+/// texels than max_pixels() (image.h).
+Ktx2 read_ktx2(const std::filesystem::path& path, const std::function<void(const Ktx2&)>& check = {});
 
 /// What a KTX2 says of itself: all of the above but the levels, which stay empty. None is inflated, nor read
 /// from the disk. Throws Error as read_ktx2, but not for what is wrong with a level.
 Ktx2 read_ktx2_info(const std::filesystem::path& path);
 
-/// Writes with Zstandard supercompression at `zstd_level` (0: none), a correct basic data format descriptor
-/// and KTXwriter. Atomic. Throws Error when a level's size does not fit the dimensions or the file cannot be
-/// written.
+/// Whether every byte of a file of ours ("sateen.kind") is as write_ktx2 left it. Throws Error when it cannot
+/// be read.
+bool ktx2_is_whole(const std::filesystem::path& path);
+
+/// Writes with Zstandard supercompression at `zstd_level` (0: none), a correct basic data format descriptor,
+/// KTXwriter, and in textures with "sateen.kind" a "sateen.checksum" of the whole file. Atomic. Throws Error
+/// when a level's size does not fit the dimensions or the file cannot be written.
 void write_ktx2(const std::filesystem::path& path, const Ktx2& texture, int zstd_level = 9);
 
 /// The same for textures that belong together: all files appear, or none. One path a texture.

@@ -3,13 +3,16 @@
 
 #include <algorithm>
 #include <array>
+#include <memory>
 #include <string_view>
 
+#include <assimp/BaseImporter.h>
 #include <assimp/Importer.hpp>
 #include <assimp/scene.h>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "sateen/core/error.h"
 #include "sateen/io/file.h"
 #include "sateen/io/file_error.h"
 #include "sateen/io/gltf_check.h"
@@ -44,8 +47,15 @@ Model read_ply_model(const fs::path& path) {
 // No post-processing: assimp's steps trust the indices of the file, and its joining of vertices takes minutes
 // and gigabytes on millions of triangles. It gives every corner of an OBJ file a vertex of its own, which is
 // why those are joined here.
-Model read_with_assimp(const fs::path& path, bool join) {
+Model read_with_assimp(const fs::path& path, const char* extension, bool join) {
   Assimp::Importer importer;
+  // Of its dozens of readers the one that is meant; none that takes the file for something else.
+  for (std::size_t i = importer.GetImporterCount(); i-- > 0;) {
+    const std::string known = importer.GetImporterInfo(i)->mFileExtensions;
+    if (known.find(extension) != std::string::npos) continue;
+    const std::unique_ptr<Assimp::BaseImporter> other(importer.GetImporter(i));
+    importer.UnregisterLoader(other.get());
+  }
   const aiScene* scene = importer.ReadFile(path.string(), 0);
   if (scene == nullptr) fail(path, fmt::format("cannot be read as a mesh: {}", importer.GetErrorString()));
   if (scene->mRootNode == nullptr) fail(path, "has no triangles");
@@ -64,12 +74,12 @@ Model read_with_assimp(const fs::path& path, bool join) {
 }
 
 Model read_obj(const fs::path& path) {
-  return read_with_assimp(path, true);
+  return read_with_assimp(path, "obj", true);
 }
 
 Model read_gltf(const fs::path& path) {
   check_gltf(path);
-  return read_with_assimp(path, false);
+  return read_with_assimp(path, "gltf", false);
 }
 
 struct MeshFormat {
@@ -107,6 +117,11 @@ Model read_model(const fs::path& path) {
   }
   Model model = format->read(path);
   if (model.mesh.triangles.empty()) fail(path, "has no triangles");
+  try {
+    check(model.mesh);
+  } catch (const Error& error) {
+    fail(path, error.what());
+  }
   return model;
 }
 

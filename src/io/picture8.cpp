@@ -4,6 +4,7 @@
 #include "sateen/io/file.h"
 #include "sateen/io/image.h"
 #include "sateen/io/jpeg.h"
+#include "sateen/io/picture_sink.h"
 
 namespace sateen::io {
 
@@ -24,7 +25,7 @@ void read_picture8(const std::filesystem::path& path, const PixelRect* only, Pic
   picture.height = image.height;
   picture.rgb.clear();
   picture.rgb.reserve(image.data.size());
-  for (const float v : image.data) picture.rgb.push_back(static_cast<std::uint8_t>(v * 255 + 0.5f));
+  for (const float v : image.data) picture.rgb.push_back(static_cast<std::uint8_t>(quantised(v, 255)));
 }
 
 }  // namespace

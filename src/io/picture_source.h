@@ -40,6 +40,11 @@ struct PictureHeader {
   }
 };
 
+/// What of the stored pixels is shown.
+inline PixelRect shown_window(const PictureHeader& header) {
+  return header.window.width > 0 ? header.window : PixelRect{0, 0, header.width, header.height};
+}
+
 /// A picture file being read from its first row to its last. One is made per format, from the file's header
 /// alone; memory for pixels is asked for by the first read(), after check_size().
 class PictureSource {

@@ -192,6 +192,7 @@ Mesh read_elements(Values values, const PlyHeader& header) {
     if (element.name == "vertex") {
       if (element.count >= std::numeric_limits<std::uint32_t>::max())
         throw Error("has more than 4294967294 vertices");
+      if (!mesh.positions.empty()) throw Error("has two lists of vertices; one is needed");
       read_vertices(values, element, mesh);
     } else if (element.name == "face" || element.name == "tristrips") {
       read_faces(values, element, mesh);

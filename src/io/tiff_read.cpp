@@ -10,6 +10,8 @@
 namespace sateen::io {
 namespace {
 
+constexpr std::uint32_t kLongest = 1 << 24;  // pixels along a side of a window
+
 /// How a TIFF stores its pixels.
 struct Storage {
   int bits = 1;
@@ -40,6 +42,7 @@ class TiffSource final : public PictureSource {
                                             : SampleType::u8;
     const int orientation = tiff_.tag<std::uint16_t>(TIFFTAG_ORIENTATION, 1);
     header_.orientation = orientation >= 1 && orientation <= 8 ? orientation : 1;
+    read_window();
     read_alpha();
     read_palette();
     read_profile();
@@ -98,6 +101,18 @@ class TiffSource final : public PictureSource {
       default:
         return false;
     }
+  }
+
+  /// The part of a larger picture that this one is, as renderers and compositors store it.
+  void read_window() {
+    const int width = static_cast<int>(std::min(tiff_.tag(TIFFTAG_PIXAR_IMAGEFULLWIDTH, 0u), kLongest));
+    const int height = static_cast<int>(std::min(tiff_.tag(TIFFTAG_PIXAR_IMAGEFULLLENGTH, 0u), kLongest));
+    if (width == 0 || height == 0) return;
+    const auto position = [&](std::uint32_t tag) {
+      const float value = tiff_.tag(tag, 0.0f);
+      return value >= 0 && value <= static_cast<float>(kLongest) ? static_cast<int>(value) : 0;
+    };
+    header_.window = {-position(TIFFTAG_XPOSITION), -position(TIFFTAG_YPOSITION), width, height};
   }
 
   void read_alpha() {

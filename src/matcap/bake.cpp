@@ -38,7 +38,7 @@ Image over_picture(const MatcapDecomposition& matcap, const Shade& shade) {
 
 Image bake(const EditedMatcap& matcap) {
   Image image = over_picture(matcap.matcap, [&](const Vec3& n) { return evaluate(matcap, n); });
-  if (matcap.light.isIdentity()) put_back(matcap.matcap.kept, image);
+  if (matcap.light.isIdentity()) put_back(matcap.matcap.kept, image, matcap.matcap.disc);
   return image;
 }
 

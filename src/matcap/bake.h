@@ -8,8 +8,8 @@
 
 namespace sateen::matcap {
 
-/// An ordinary MatCap of the input's size, linear light, 3 channels; off the sphere the rim's colour goes on
-/// outwards, so that filtering never sees a background.
+/// An ordinary MatCap of the size and with the disc that `matcap` says, the input's or another, linear light,
+/// 3 channels; off the sphere the rim's colour goes on outwards, so that filtering never sees a background.
 Image bake(const EditedMatcap& matcap);
 
 /// The two layers Blender's MatCap mode reads, "diffuse" and "specular", linear light: they add up to bake().

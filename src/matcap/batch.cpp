@@ -8,6 +8,9 @@
 
 #include "sateen/core/error.h"
 #include "sateen/core/parallel.h"
+#include "sateen/io/checksum.h"
+#include "sateen/io/file.h"
+#include "sateen/io/ktx2.h"
 #include "sateen/matcap/decomposition_file.h"
 #include "sateen/matcap/matcap_picture.h"
 
@@ -32,7 +35,7 @@ std::string signature_of(const DecomposeFileOptions& options) {
 
 std::map<std::string, std::string> provenance_of(const fs::path& input, const DecomposeFileOptions& options) {
   return {{"source", input.filename().string()},
-          {"source_bytes", std::to_string(fs::file_size(input))},
+          {"source_checksum", io::checksum(io::read_bytes(input))},
           {"options", signature_of(options)},
           {"program", options.program}};
 }
@@ -41,7 +44,8 @@ bool is_there(const fs::path& input, const fs::path& output, const DecomposeFile
   std::error_code code;
   if (!fs::exists(output, code)) return false;
   try {
-    return read_matcap(output).provenance == provenance_of(input, options);
+    return read_matcap_parameters(output).provenance == provenance_of(input, options) &&
+           io::ktx2_is_whole(output);
   } catch (const Error&) {
     return false;  // of another kind or damaged: made anew
   }
@@ -60,7 +64,7 @@ MatcapDecomposition decompose_file(const fs::path& input, const fs::path& output
 
 std::vector<BatchEntry> decompose_files(std::span<const fs::path> inputs, const fs::path& folder,
                                         const DecomposeFileOptions& options, bool anew,
-                                        const Progress& progress) {
+                                        const Progress& progress, Shard shard) {
   std::vector<BatchEntry> entries;
   std::set<fs::path> names;
   for (const fs::path& input : inputs) {
@@ -69,23 +73,19 @@ std::vector<BatchEntry> decompose_files(std::span<const fs::path> inputs, const 
       throw Error(fmt::format("{}: another input would also become {}; give them different names or folders",
                               input.string(), output.string()));
     }
-    entries.push_back({input, output, false, {}});
+    const bool elsewhere = static_cast<int>(entries.size()) % shard.count != shard.number - 1;
+    entries.push_back({input, output, elsewhere, false, {}});
   }
-  std::error_code code;
-  fs::create_directories(folder, code);
-  if (code) throw Error(fmt::format("{}: the folder cannot be made: {}", folder.string(), code.message()));
+  io::make_folder(folder);
   std::atomic<int> done = 0;
   const int count = static_cast<int>(entries.size());
   parallel_for(count, [&](int i) {
     BatchEntry& entry = entries[static_cast<std::size_t>(i)];
-    try {
-      if (!anew && is_there(entry.input, entry.output, options)) {
-        entry.reused = true;
-      } else {
-        decompose_file(entry.input, entry.output, options);
-      }
-    } catch (const Error& error) {
-      entry.failure = error.what();
+    if (!entry.elsewhere) {
+      entry.failure = failure_of(entry.input.string(), [&] {
+        entry.reused = !anew && is_there(entry.input, entry.output, options);
+        if (!entry.reused) decompose_file(entry.input, entry.output, options);
+      });
     }
     report(progress, static_cast<double>(++done) / count);
   });

@@ -27,17 +27,25 @@ MatcapDecomposition decompose_file(const std::filesystem::path& input, const std
 struct BatchEntry {
   std::filesystem::path input;
   std::filesystem::path output;
-  bool reused = false;  ///< an earlier run had made the output, of this input with these options
-  std::string failure;  ///< empty: it worked
+  bool elsewhere = false;  ///< another shard's: nothing was done about it
+  bool reused = false;     ///< an earlier run had made the output, of this input with these options
+  std::string failure;     ///< empty: it worked
 };
 
-/// Decomposes `inputs` into `folder` as NAME.ktx2, in parallel. Outputs that are already there for the same
-/// input (name, size) and options stay as they are unless `anew`: an interrupted run goes on where it
-/// stopped. An input that fails does not stop the others. Throws Error when two inputs have the same name or
-/// the folder cannot be made.
+/// Which of a batch's inputs one process takes: `number` of `count`, from 1.
+struct Shard {
+  int number = 1;
+  int count = 1;
+};
+
+/// Decomposes `inputs` into `folder` as NAME.ktx2, in parallel; of them every count-th is this shard's.
+/// Outputs that are already there, whole, made of the same bytes with these options, stay as they are unless
+/// `anew`: an interrupted run goes on where it stopped. An input that fails, for whatever reason, stops no
+/// other and leaves an older output as it was. Throws Error when two inputs have the same name or the folder
+/// cannot be made.
 std::vector<BatchEntry> decompose_files(std::span<const std::filesystem::path> inputs,
                                         const std::filesystem::path& folder,
                                         const DecomposeFileOptions& options, bool anew,
-                                        const Progress& progress = {});
+                                        const Progress& progress = {}, Shard shard = {});
 
 }  // namespace sateen::matcap

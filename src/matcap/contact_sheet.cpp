@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "sateen/matcap/contact_sheet.h"
 
+#include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <vector>
@@ -12,6 +13,7 @@
 #include "sateen/core/error.h"
 #include "sateen/core/parallel.h"
 #include "sateen/io/file.h"
+#include "sateen/io/folder_lock.h"
 #include "sateen/io/image.h"
 #include "sateen/matcap/bake.h"
 #include "sateen/matcap/decomposition_file.h"
@@ -75,7 +77,6 @@ Image strip_of(MatcapDecomposition matcap) {
   matcap.width = matcap.height = kPreviewSize;
   matcap.disc = inscribed_disc(kPreviewSize, kPreviewSize);
   const Disc disc = matcap.disc;
-  matcap.kept.clear();  // of the size it had
   EditedMatcap edited = unedited(std::move(matcap));
   std::vector<Image> tiles{bake(edited)};
   for (const Part part : kParts) {
@@ -112,17 +113,42 @@ std::string describe(const MatcapPart& part, const char* name) {
                      part.base_color.x(), part.base_color.y(), part.base_color.z());
 }
 
+/// Where the page's parts for one entry lie.
+fs::path strip_path(const fs::path& folder, const BatchEntry& entry) {
+  return folder / "sheet" / (entry.output.stem().string() + ".png");
+}
+fs::path failure_path(const fs::path& folder, const BatchEntry& entry) {
+  return folder / "sheet" / (entry.output.stem().string() + ".txt");
+}
+
+/// The entry's strip, or why there is none, beside the page.
+void write_parts(const fs::path& folder, const BatchEntry& entry) {
+  const fs::path strip = strip_path(folder, entry);
+  std::error_code code;
+  if (!entry.failure.empty()) {
+    io::write_text(failure_path(folder, entry), entry.failure);
+    fs::remove(strip, code);
+    return;
+  }
+  if (!fs::exists(strip, code) || fs::last_write_time(strip) < fs::last_write_time(entry.output)) {
+    io::write_image(strip, strip_of(read_matcap(entry.output)));
+  }
+  fs::remove(failure_path(folder, entry), code);
+}
+
+/// From what lies in the folder, so that the page is the same whichever process writes it last.
 std::string row_of(const fs::path& folder, const BatchEntry& entry) {
   const std::string name = entry.output.stem().string();
-  if (!entry.failure.empty())
+  const auto without_strip = [&](const std::string& why) {
     return fmt::format("<section class=\"failed\"><h2>{}</h2><p>{}</p></section>\n", escaped(name),
-                       escaped(entry.failure));
-  const MatcapDecomposition matcap = read_matcap(entry.output);
-  const fs::path strip = folder / "sheet" / (name + ".png");
+                       escaped(why));
+  };
   std::error_code code;
-  if (!fs::exists(strip, code) || fs::last_write_time(strip) < fs::last_write_time(entry.output)) {
-    io::write_image(strip, strip_of(matcap));
+  if (fs::exists(failure_path(folder, entry), code)) {
+    return without_strip(io::read_text(failure_path(folder, entry)));
   }
+  if (!fs::exists(strip_path(folder, entry), code)) return without_strip("not made yet");
+  const MatcapDecomposition matcap = read_matcap_parameters(entry.output);
   return fmt::format(
       "<section><h2>{}</h2><img loading=\"lazy\" src=\"sheet/{}\" width=\"{}\" height=\"{}\" alt=\"{}\">"
       "<p>{}<br>{}</p></section>\n",
@@ -135,18 +161,19 @@ std::string row_of(const fs::path& folder, const BatchEntry& entry) {
 
 void write_contact_sheet(const fs::path& folder, std::span<const BatchEntry> entries,
                          const Progress& progress) {
-  std::error_code code;
-  fs::create_directories(folder / "sheet", code);
-  if (code)
-    throw Error(
-        fmt::format("{}: the folder cannot be made: {}", (folder / "sheet").string(), code.message()));
-  std::vector<std::string> rows(entries.size());
+  io::make_folder(folder / "sheet");
+  std::vector<std::string> failures(entries.size());
   std::atomic<int> done = 0;
   const int count = static_cast<int>(entries.size());
   parallel_for(count, [&](int i) {
-    rows[static_cast<std::size_t>(i)] = row_of(folder, entries[static_cast<std::size_t>(i)]);
+    const BatchEntry& entry = entries[static_cast<std::size_t>(i)];
+    if (!entry.elsewhere) {
+      failures[static_cast<std::size_t>(i)] =
+          failure_of(entry.output.string(), [&] { write_parts(folder, entry); });
+    }
     report(progress, static_cast<double>(++done) / count);
   });
+  const io::FolderLock lock(folder);
   std::string html =
       "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>Decomposed "
       "MatCaps</title>\n<style>"
@@ -157,8 +184,10 @@ void write_contact_sheet(const fs::path& folder, std::span<const BatchEntry> ent
       "header span{width:128px}img{display:block;max-width:none}</style></head><body>\n<header>";
   for (const char* tile : kTiles) html += fmt::format("<span>{}</span>", tile);
   html += "</header>\n";
-  for (const std::string& row : rows) html += row;
+  for (const BatchEntry& entry : entries) html += row_of(folder, entry);
   io::write_text(folder / "index.html", html + "</body></html>\n");
+  const auto failed = std::ranges::find_if_not(failures, &std::string::empty);
+  if (failed != failures.end()) throw Error(*failed);
 }
 
 }  // namespace sateen::matcap

@@ -14,6 +14,7 @@
 #include "sateen/core/parallel.h"
 #include "sateen/core/picture_texture.h"
 #include "sateen/io/image.h"
+#include "sateen/io/json.h"
 #include "sateen/matcap/decomposition_file.h"
 #include "sateen/matcap/edits.h"
 #include "sateen/matcap/half_texels.h"
@@ -156,7 +157,7 @@ std::unique_ptr<DecomposedAppearance> DecomposedAppearance::read(const fs::path&
 
 std::unique_ptr<DecomposedAppearance> DecomposedAppearance::parse(const std::string& text,
                                                                   const fs::path& path) {
-  const json value = json::parse(text);
+  const json value = io::parse_json(text, path.string());
   appearance::JsonObject material(value, path.string());
   material.text("model", "matcap-decomposition");
   material.text("name", "");
@@ -164,8 +165,9 @@ std::unique_ptr<DecomposedAppearance> DecomposedAppearance::parse(const std::str
   const fs::path folder = path.parent_path();
   MatcapDecomposition matcap = read_matcap(folder / material.text("matcap", ""));
   const AddUpSpace space = matcap.space;
-  const auto edits = material.has("edits") ? parse_edits(material.raw("edits").dump(), folder, path.string())
-                                           : std::vector<Edit>{};
+  const auto edits = material.has("edits")
+                         ? parse_edits(io::json_text(material.raw("edits")), folder, path.string())
+                         : std::vector<Edit>{};
   const auto picture = [&](const char* key) {
     const std::string name = material.text(key, "");
     return name.empty() ? fs::path() : folder / name;

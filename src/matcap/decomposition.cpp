@@ -55,6 +55,7 @@ MatcapDecomposition decompose_smaller(const Image& picture, const Disc& disc, co
   DecomposeOptions smaller_options = options;
   for (auto& regions : smaller_options.regions) {
     for (Region& r : regions) {
+      r = overlap(r, picture.width, picture.height);
       r = {static_cast<int>(r.x * across), static_cast<int>(r.y * down), scaled(r.width), scaled(r.height)};
     }
   }

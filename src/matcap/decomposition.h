@@ -40,10 +40,10 @@ struct MatcapPart {
 struct MatcapDecomposition {
   std::array<MatcapPart, 2> parts;  ///< low, high
   AddUpSpace space = AddUpSpace::display;
-  int width = 0;  ///< of the input picture
+  int width = 0;  ///< of the input picture; set size and disc otherwise to bake another
   int height = 0;
-  Disc disc;                    ///< the sphere in it
-  std::vector<KeptPixel> kept;  ///< pixels of it that the maps cannot give back
+  Disc disc;        ///< the sphere in it
+  KeptPixels kept;  ///< pixels of it that the maps cannot give back
   std::map<std::string, std::string> provenance;
 
   MatcapPart& operator[](Part part) { return parts[static_cast<std::size_t>(part)]; }

@@ -20,6 +20,9 @@ void write_matcap(const std::filesystem::path& path, const MatcapDecomposition& 
 /// or texels make no sense.
 MatcapDecomposition read_matcap(const std::filesystem::path& path);
 
+/// The same without maps and kept pixels, from the file's first bytes.
+MatcapDecomposition read_matcap_parameters(const std::filesystem::path& path);
+
 /// The parameters as JSON text: space, width, height, disc {x, y, radius}, map_size, low and high {variance,
 /// slope, measured, feature, regions, base_color, map_variances}, provenance.
 std::string matcap_json(const MatcapDecomposition& matcap);

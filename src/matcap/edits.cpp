@@ -162,7 +162,7 @@ Vec3 main_highlight(const MatcapDecomposition& matcap) {
 }
 
 EditedMatcap apply_edits(MatcapDecomposition matcap, const std::vector<Edit>& edits) {
-  if (!edits.empty()) matcap.kept.clear();  // as the light and the material were: they go with them
+  if (!edits.empty()) matcap.kept = {};  // as the light and the material were: they go with them
   Replay replay(std::move(matcap));
   for (const Edit& edit : edits) std::visit(replay, edit);
   return replay.finish();

@@ -8,6 +8,7 @@
 
 #include "sateen/core/error.h"
 #include "sateen/io/file.h"
+#include "sateen/io/json.h"
 #include "sateen/matcap/edits.h"
 
 namespace sateen::matcap {
@@ -174,12 +175,7 @@ Edit parse_edit(Keys& keys) {
 }  // namespace
 
 std::vector<Edit> parse_edits(const std::string& text, const fs::path& folder, const std::string& name) {
-  json list;
-  try {
-    list = json::parse(text);
-  } catch (const json::exception& error) {
-    throw Error(fmt::format("{}: is no JSON: {}", name, error.what()));
-  }
+  const json list = io::parse_json(text, name);
   if (!list.is_array())
     throw Error(name + ": is no list of edits; [{\"edit\": \"turn\", ...}, ...] is needed");
   std::vector<Edit> edits;

@@ -259,14 +259,13 @@ FilterEstimate estimate_filter(const Image& component, const Disc& disc, const s
   std::optional<Measured> best;
   for (const Region& region : regions) {
     std::vector<Vec2> points;
-    const double area = static_cast<double>(region.width) * region.height;
+    const Region inside = overlap(region, component.width, component.height);
+    const double area = static_cast<double>(inside.width) * inside.height;
     const int stride =
         std::max(1, static_cast<int>(std::ceil(std::sqrt(area / static_cast<double>(kMostPixels)))));
-    for (int y = region.y; y < region.y + region.height; y += stride) {
-      for (int x = region.x; x < region.x + region.width; x += stride) {
-        if (x >= 0 && y >= 0 && x < component.width && y < component.height && on_disc(disc, x, y)) {
-          points.push_back(disc_point(disc, x + 0.5, y + 0.5));
-        }
+    for (int y = inside.y; y < inside.y + inside.height; y += stride) {
+      for (int x = inside.x; x < inside.x + inside.width; x += stride) {
+        if (on_disc(disc, x, y)) points.push_back(disc_point(disc, x + 0.5, y + 0.5));
       }
     }
     if (points.empty()) {

@@ -11,12 +11,7 @@
 namespace sateen::matcap {
 
 /// A rectangle of pixels around a sharp feature of a MatCap.
-struct Region {
-  int x = 0;  ///< left column
-  int y = 0;  ///< top row
-  int width = 1;
-  int height = 1;
-};
+using Region = PixelRect;
 
 /// What a signature is taken of (section 3.3): the component R where a light is a point or a line across
 /// theta, its derivative dR/dtheta where a light is an edge.

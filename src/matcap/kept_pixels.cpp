@@ -42,7 +42,7 @@ std::uint32_t hexadecimal(std::string_view digits) {
 
 }  // namespace
 
-std::vector<KeptPixel> pixels_to_keep(const Image& picture, const Image& baked, const Disc& disc) {
+KeptPixels pixels_to_keep(const Image& picture, const Image& baked, const Disc& disc) {
   struct Missed {
     float difference;
     KeptPixel pixel;
@@ -66,24 +66,26 @@ std::vector<KeptPixel> pixels_to_keep(const Image& picture, const Image& baked, 
     missed.erase(end, missed.end());
     std::ranges::sort(missed, {}, [](const Missed& m) { return m.pixel.index; });
   }
-  std::vector<KeptPixel> pixels;
-  for (const Missed& m : missed) pixels.push_back(m.pixel);
-  return pixels;
+  KeptPixels kept{picture.width, picture.height, disc, {}};
+  for (const Missed& m : missed) kept.pixels.push_back(m.pixel);
+  return kept;
 }
 
-std::vector<KeptPixel> pixels_of_rim(const Image& picture, const Disc& disc, double width) {
-  std::vector<KeptPixel> pixels;
+KeptPixels pixels_of_rim(const Image& picture, const Disc& disc, double width) {
+  KeptPixels kept{picture.width, picture.height, disc, {}};
   for (int y = 0; width > 0 && y < picture.height; ++y) {
     for (int x = 0; x < picture.width; ++x) {
-      if (on_rim(disc, width, x, y)) pixels.push_back({index_of(picture, x, y), picture.rgb(x, y)});
+      if (on_rim(disc, width, x, y)) kept.pixels.push_back({index_of(picture, x, y), picture.rgb(x, y)});
     }
   }
-  return pixels;
+  return kept;
 }
 
-void put_back(const std::vector<KeptPixel>& pixels, Image& picture) {
+void put_back(const KeptPixels& kept, Image& picture, const Disc& disc) {
+  const bool same_place = disc.x == kept.disc.x && disc.y == kept.disc.y && disc.radius == kept.disc.radius;
+  if (picture.width != kept.width || picture.height != kept.height || !same_place) return;
   const auto width = static_cast<std::uint32_t>(picture.width);
-  for (const KeptPixel& pixel : pixels) {
+  for (const KeptPixel& pixel : kept.pixels) {
     picture.set_rgb(static_cast<int>(pixel.index % width), static_cast<int>(pixel.index / width),
                     pixel.colour);
   }

@@ -19,15 +19,25 @@ struct KeptPixel {
   Vec3f colour{0, 0, 0};    ///< linear light
 };
 
+/// Those pixels, and the picture they were in: they say nothing about one of another size or with its sphere
+/// elsewhere.
+struct KeptPixels {
+  int width = 0;
+  int height = 0;
+  Disc disc;
+  std::vector<KeptPixel> pixels;
+};
+
 /// The pixels on the disc where the display values of `baked` are off by more than half of 1/255; at most an
 /// eighth of the disc, the worst. Both pictures are linear, of the same size; `picture` has 3 channels. In
 /// rising order of the index.
-std::vector<KeptPixel> pixels_to_keep(const Image& picture, const Image& baked, const Disc& disc);
+KeptPixels pixels_to_keep(const Image& picture, const Image& baked, const Disc& disc);
 
 /// The pixels within `width` of the disc's edge.
-std::vector<KeptPixel> pixels_of_rim(const Image& picture, const Disc& disc, double width);
+KeptPixels pixels_of_rim(const Image& picture, const Disc& disc, double width);
 
-void put_back(const std::vector<KeptPixel>& pixels, Image& picture);
+/// Into a picture of that size whose sphere is at that disc; others stay as they are.
+void put_back(const KeptPixels& kept, Image& picture, const Disc& disc);
 
 /// As text for metadata: per pixel eight hexadecimal digits of its index and four of each channel's half
 /// float.

@@ -8,6 +8,7 @@
 #include "sateen/core/error.h"
 #include "sateen/core/picture_texture.h"
 #include "sateen/io/image.h"
+#include "sateen/matcap/matcap_picture.h"
 
 namespace sateen::matcap {
 namespace {
@@ -36,7 +37,7 @@ MatCap::MatCap(Image picture) : picture_(without_alpha(picture)) {
 }
 
 std::unique_ptr<MatCap> MatCap::read(const std::filesystem::path& path) {
-  Image picture = io::read_image(path);
+  Image picture = io::read_image(path, {.most_across = kMostAcross});
   if (picture.width != picture.height) {
     throw Error(fmt::format("{}: a MatCap is a square picture of a sphere, this one is {} x {}",
                             path.string(), picture.width, picture.height));

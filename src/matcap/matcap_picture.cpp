@@ -1,16 +1,20 @@
 // SPDX-License-Identifier: MIT
 #include "sateen/matcap/matcap_picture.h"
 
+#include <algorithm>
+
 #include "sateen/io/image.h"
 
 namespace sateen::matcap {
 
 MatcapPicture read_matcap_picture(const std::filesystem::path& path, const std::optional<Disc>& disc) {
-  const Image picture = io::read_image(path);
+  const Image picture = io::read_image(path, {.most_across = kMostAcross});
   MatcapPicture result;
   if (disc) {
-    check_disc(*disc, picture.width, picture.height, path.string());
-    result.disc = *disc;
+    const io::ImageInfo info = io::read_image_info(path);
+    check_disc(*disc, info.width, info.height, path.string());
+    const int box = (std::max(info.width, info.height) - 1) / kMostAcross + 1;
+    result.disc = {disc->x / box, disc->y / box, disc->radius / box};
   } else {
     result.disc = find_disc(picture, path.string());
   }

@@ -10,9 +10,9 @@
 namespace sateen::matcap {
 namespace {
 
-constexpr double kWidth = 640;
-constexpr double kHeight = 400;
-constexpr double kMargin = 60;
+constexpr double kPlotWidth = 640;
+constexpr double kPlotHeight = 400;
+constexpr double kPlotMargin = 60;
 constexpr std::array<const char*, 4> kColours{"#1b6ca8", "#c1440e", "#2e7d32", "#6a1b9a"};
 
 /// A logarithmic axis on the page.
@@ -88,17 +88,17 @@ std::string signature_svg(std::span<const LabelledEstimate> curves) {
       most = std::max(most, v);
     }
   }
-  const Axis x{smallest, kPi / 2, kMargin, kWidth - 20};
-  const Axis y{std::max(least / 1.5, 1e-7), std::min(most * 1.5, 10.0), kHeight - kMargin, 20};
+  const Axis x{smallest, kPi / 2, kPlotMargin, kPlotWidth - 20};
+  const Axis y{std::max(least / 1.5, 1e-7), std::min(most * 1.5, 10.0), kPlotHeight - kPlotMargin, 20};
   std::string svg = fmt::format(
       "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{1}\" viewBox=\"0 0 {0} {1}\" "
       "font-family=\"sans-serif\" font-size=\"12\">\n<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n",
-      kWidth, kHeight);
+      kPlotWidth, kPlotHeight);
   svg += ticks(x, y);
   for (std::size_t i = 0; i < curves.size(); ++i) svg += curve(curves[i], x, y, i);
   svg +=
       fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"middle\">half width of the window</text>\n",
-                  (x.begin + x.end) / 2, kHeight - 18);
+                  (x.begin + x.end) / 2, kPlotHeight - 18);
   svg += fmt::format(
       "<text transform=\"translate(14 {:.1f}) rotate(-90)\" text-anchor=\"middle\">variance, "
       "radians&#178;</text>\n</svg>\n",

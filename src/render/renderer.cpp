@@ -21,6 +21,7 @@ namespace {
 
 /// What the mesh offers, which is all that the materials need.
 scene::MeshOffer checked_offer(const scene::Scene& scene) {
+  check(scene.mesh);
   const scene::MeshOffer offer = scene::offer_of(scene.mesh);
   if (scene.materials.size() < offer.materials) {
     throw Error(

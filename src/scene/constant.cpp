@@ -4,6 +4,7 @@
 #include <array>
 
 #include "sateen/appearance/json_reader.h"
+#include "sateen/io/json.h"
 
 namespace sateen::scene {
 namespace {
@@ -29,7 +30,7 @@ std::span<const appearance::ParameterField<Vec3>> fields() {
 }  // namespace
 
 std::unique_ptr<Constant> Constant::parse(const std::string& text, const std::filesystem::path& path) {
-  const nlohmann::json value = nlohmann::json::parse(text);
+  const nlohmann::json value = io::parse_json(text, path.string());
   appearance::JsonObject json(value, path.string());
   json.text("model", "constant");
   json.text("name", "");

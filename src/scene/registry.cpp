@@ -15,6 +15,7 @@
 #include "sateen/core/error.h"
 #include "sateen/io/file.h"
 #include "sateen/io/image.h"
+#include "sateen/io/json.h"
 #include "sateen/io/ktx2.h"
 #include "sateen/matcap/decomposed_appearance.h"
 #include "sateen/matcap/matcap.h"
@@ -76,12 +77,12 @@ Made load_ktx2(const fs::path& path) {
 }
 
 LoadedMaterial load_json(const fs::path& path) {
-  const nlohmann::json value = appearance::read_json(path);
+  const nlohmann::json value = io::read_json(path);
   if (!value.is_object() || !value.contains("model") || !value["model"].is_string()) {
     throw Error(fmt::format("{}: is no material; a JSON object with \"model\" is needed", path.string()));
   }
   LoadedMaterial material;
-  material.appearance = find(models(), "model", value["model"], path)(value.dump(), path);
+  material.appearance = find(models(), "model", value["model"], path)(io::json_text(value), path);
   if (material.appearance->lit()) {
     appearance::JsonObject json(value, path.string());
     material.lighting = appearance::read_lighting_keys(json, path);

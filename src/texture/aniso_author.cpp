@@ -95,7 +95,7 @@ class InputRows {
 void write_maps(InputRows& inputs, std::vector<fs::path> outputs, int bits,
                 const std::function<void(std::size_t texel, std::vector<std::array<float, 3>>& out)>& texel,
                 const Progress& progress) {
-  const auto run = [&](const std::vector<fs::path>& files) {
+  const auto run = [&](std::span<const fs::path> files) {
     const std::size_t width = static_cast<std::size_t>(inputs.width());
     std::vector<std::unique_ptr<io::ImageRowWriter>> writers;
     for (std::size_t i = 0; i < files.size(); ++i) {
@@ -123,10 +123,7 @@ void write_maps(InputRows& inputs, std::vector<fs::path> outputs, int bits,
     for (auto& writer : writers) writer->close();
   };
   for (const fs::path& output : outputs) samples_for(output, bits);
-  io::write_atomically(outputs[0], [&](const fs::path& first) {
-    if (outputs.size() == 1) return run({first});
-    io::write_atomically(outputs[1], [&](const fs::path& second) { run({first, second}); });
-  });
+  io::write_atomically(outputs, run);
 }
 
 /// What a convention's functions are, for those that store roughness, strength and rotation.

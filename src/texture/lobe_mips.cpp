@@ -83,8 +83,11 @@ LobeMips make_lobe_mips(LobeSource& source, const ChainOptions& options, Anisotr
 }
 
 LobeMips read_lobe_mips(const fs::path& normals, const fs::path& anisotropy) {
-  const io::Ktx2 n = io::read_ktx2(normals);
-  const io::Ktx2 a = io::read_ktx2(anisotropy);
+  const auto read = [](const fs::path& path, const char* key) {
+    return io::read_ktx2(path, [&](const io::Ktx2& texture) { note(texture, key, path); });
+  };
+  const io::Ktx2 n = read(normals, "SateenNormals");
+  const io::Ktx2 a = read(anisotropy, "SateenAnisotropy");
   LobeMips mips;
   mips.green_down = note(n, "SateenNormals", normals) == "xy, green down";
   mips.encoding = anisotropy_encoding_from_name(note(a, "SateenAnisotropy", anisotropy));

@@ -241,6 +241,8 @@ class KtxSink : public LobeSink {
 
 std::vector<fs::path> write_ktx(LobeSource& source, const fs::path& base, const ChainOptions& chain,
                                 const LobeOutput& output, int levels, const Progress& progress) {
+  const std::vector<fs::path> paths{base.string() + "_normal.ktx2", base.string() + "_aniso.ktx2"};
+  io::check_writable(paths);
   KtxSink sink(source.width(), source.height(), levels, output);
   filter_lobe_chain(source, sink, chain, progress);
   for (io::Ktx2& map : sink.maps) {
@@ -253,7 +255,6 @@ std::vector<fs::path> write_ktx(LobeSource& source, const fs::path& base, const 
   sink.maps[1].metadata["sateen.kind"] = kAnisotropyMapKind;
   sink.maps[0].metadata["SateenNormals"] = output.green_down ? "xy, green down" : "xy, green up";
   sink.maps[1].metadata["SateenAnisotropy"] = name_of(output.encoding);
-  const std::vector<fs::path> paths{base.string() + "_normal.ktx2", base.string() + "_aniso.ktx2"};
   io::write_ktx2(paths, sink.maps, output.zstd_level);
   return paths;
 }

@@ -7,6 +7,7 @@
 #include "sateen/brdf/conventions.h"
 #include "sateen/core/error.h"
 #include "sateen/io/file.h"
+#include "sateen/io/json.h"
 #include "sateen/texture/lobe_files.h"
 #include "sateen/texture/mapped_appearance.h"
 
@@ -40,7 +41,7 @@ LobeMips filtered(appearance::JsonObject& json, const fs::path& normals, const f
 }  // namespace
 
 std::unique_ptr<MappedAppearance> MappedAppearance::parse(const std::string& text, const fs::path& path) {
-  const nlohmann::json value = nlohmann::json::parse(text);
+  const nlohmann::json value = io::parse_json(text, path.string());
   appearance::JsonObject json(value, path.string());
   json.text("model", "mapped");
   json.text("name", "");

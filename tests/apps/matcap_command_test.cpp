@@ -87,6 +87,14 @@ TEST(MatcapCommand, SeparateAddsUpAndEstimateReports) {
   EXPECT_THAT(io::read_text(path("s.svg")), HasSubstr("</svg>"));
   EXPECT_EQ(run_program(fmt::format("matcap estimate {} --roi 60,20,6", input)).exit_code, 2);
   EXPECT_EQ(run_program(fmt::format("matcap estimate {} --roi 0,0,1,1", input)).exit_code, 1);
+  const auto all = run_program(fmt::format("matcap estimate {} --json --roi 0,0,96,96", input));
+  for (const char* region : {"0,0,2147483647,2147483647", "-5,-5,2147483647,2147483647"}) {
+    EXPECT_EQ(json::parse(run_program(fmt::format("matcap estimate {} --json --roi={}", input, region))
+                              .output)["high"]["variance"],
+              json::parse(all.output)["high"]["variance"]);
+  }
+  EXPECT_EQ(run_program(fmt::format("matcap estimate {} --roi=2147483647,5,2147483647,9", input)).exit_code,
+            1);
 }
 
 TEST(MatcapCommand, BadPicturesAreNamedAndTheOthersOfAFolderDone) {

@@ -21,6 +21,7 @@ class SimulatedGrbl {
   std::atomic<bool> silent{false};
   std::atomic<bool> slow{false};  // answers byte by byte
   std::atomic<int> alarms{0};     // raised at the next moves
+  std::atomic<int> alarms_on_position{0};
   std::atomic<bool> restart_on_move{false};
   std::atomic<bool> never_idle{false};
   std::atomic<bool> refuse{false};
@@ -66,6 +67,10 @@ class SimulatedGrbl {
       position = std::stod(text.substr(4));
       ++moves;
       running_ = 2;
+    }
+    if (text.starts_with("G92") && alarms_on_position > 0) {
+      --alarms_on_position;
+      return say("ALARM:3\r\n");
     }
     if (text.starts_with("G92")) position = std::stod(text.substr(5));
     if (text == "$X") say("[MSG:Caution: Unlocked]\r\n");

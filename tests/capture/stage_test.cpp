@@ -66,6 +66,17 @@ TEST(GrblStage, UnlocksOneAlarmAndTellsOfTheNext) {
   EXPECT_THAT(message_of([&] { stage->move_to(20); }), testing::HasSubstr("ALARM:1"));
 }
 
+// An alarm while a resumed capture tells the stage where it stands ended the program.
+TEST(GrblStage, AlarmsOnResumingAreUnlockedOnceOrTold) {
+  SimulatedGrbl grbl;
+  const auto stage = open_grbl_stage(grbl.device(), quick());
+  grbl.alarms_on_position = 1;
+  stage->stands_at(40);
+  EXPECT_NEAR(grbl.position, 40, 1e-9);
+  grbl.alarms_on_position = 2;
+  EXPECT_THAT(message_of([&] { stage->stands_at(50); }), testing::HasSubstr("ALARM:3"));
+}
+
 TEST(GrblStage, TellsOfRestartsRefusalsAndStandstill) {
   SimulatedGrbl grbl;
   const auto stage = open_grbl_stage(grbl.device(), quick());

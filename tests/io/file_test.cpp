@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include "sateen/io/file.h"
 
+#include <csignal>
 #include <fstream>
 #include <thread>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include "full_disk.h"
 #include "sateen/core/error.h"
@@ -112,6 +115,110 @@ TEST(File, TheLongestNameCanBeWritten) {
   const fs::path path = folder / (std::string(251, 'n') + ".txt");
   write_text(path, "x");
   EXPECT_EQ(read_text(path), "x");
+}
+
+TEST(File, PermissionsAreKeptAndReadOnlyFilesAreRefused) {
+  const TemporaryFolder folder;
+  const fs::path path = folder / "a.txt";
+  write_text(path, "old");
+  fs::permissions(path, fs::perms(0640));
+  write_text(path, "new");
+  EXPECT_EQ(fs::status(path).permissions(), fs::perms(0640));
+  fs::permissions(path, fs::perms(0444));
+  EXPECT_THAT(refusal([&] { write_text(path, "newer"); }), HasSubstr("read-only"));
+  EXPECT_EQ(read_text(path), "new");
+}
+
+TEST(File, OneNameForTwoFilesIsRefused) {
+  const TemporaryFolder folder;
+  const std::vector<fs::path> targets{folder / "a.txt", folder / "b" / ".." / "a.txt"};
+  fs::create_directory(folder / "b");
+  EXPECT_THAT(refusal([&] { check_writable(targets); }), HasSubstr("twice"));
+  EXPECT_THAT(refusal([&] { write_atomically(targets, [](std::span<const fs::path>) {}); }),
+              HasSubstr("twice"));
+}
+
+TEST(File, WhenOneOfSeveralCannotTakeItsPlaceTheOthersAreAsBefore) {
+  const TemporaryFolder folder;
+  const std::vector<fs::path> targets{folder / "a.txt", folder / "b.txt", folder / "c.txt"};
+  write_text(targets[2], "old");
+  const auto write = [&](std::span<const fs::path> temporaries) {
+    for (const fs::path& temporary : temporaries) std::ofstream(temporary) << "new";
+    fs::create_directory(targets[1]);  // in the way, once it is too late to ask
+    write_text(targets[1] / "x", "");
+  };
+  EXPECT_NE(refusal([&] { write_atomically(targets, write); }), "");
+  EXPECT_EQ(read_text(targets[2]), "old");
+  EXPECT_THAT(names_in(folder.path()), ElementsAre("b.txt", "c.txt"));
+}
+
+const auto kText = [](const std::string& name) { return name.ends_with(".txt"); };
+
+TEST(File, AFolderIsReplacedAsAWhole) {
+  const TemporaryFolder folder;
+  const fs::path target = folder / "parts";
+  const auto put = [](const std::string& names, const std::string& text) {
+    return [names, text](const fs::path& made) {
+      for (const char name : names) write_text(made / (std::string(1, name) + ".txt"), text);
+    };
+  };
+  write_folder_atomically(target, put("abc", "old"), kText);
+  EXPECT_THAT(names_in(target), ElementsAre("a.txt", "b.txt", "c.txt"));
+  write_text(target / "mine.md", "keep");
+  const auto fail = [&](const fs::path& made) {
+    put("a", "half")(made);
+    throw Error("it broke");
+  };
+  EXPECT_EQ(refusal([&] { write_folder_atomically(target, fail, kText); }), "it broke");
+  EXPECT_EQ(read_text(target / "a.txt"), "old");
+  write_folder_atomically(target, put("ab", "new"), kText);
+  EXPECT_THAT(names_in(target), ElementsAre("a.txt", "b.txt", "mine.md"));
+  EXPECT_EQ(read_text(target / "a.txt") + read_text(target / "mine.md"), "newkeep");
+  EXPECT_THAT(names_in(folder.path()), ElementsAre("parts"));
+  fs::create_directory(target / "sub");
+  EXPECT_THAT(refusal([&] { write_folder_atomically(target, put("ab", "newer"), kText); }), HasSubstr("sub"));
+  EXPECT_EQ(read_text(target / "a.txt"), "new");
+}
+
+/// A process that is ended by `signal` in the middle of writing a file, and of a folder.
+void end_while_writing(const fs::path& folder, int signal) {
+  const pid_t child = fork();
+  if (child == 0) {
+    remove_temporaries_on_signals();
+    write_folder_atomically(
+        folder / "parts",
+        [&](const fs::path& made) {
+          std::ofstream(made / "a.txt") << "half";
+          write_atomically(folder / "a.txt", [&](const fs::path& temporary) {
+            std::ofstream(temporary) << "half";
+            kill(getpid(), signal);
+            pause();
+          });
+        },
+        kText);
+    _exit(3);
+  }
+  int status = 0;
+  waitpid(child, &status, 0);
+  EXPECT_TRUE(WIFSIGNALED(status));
+  EXPECT_EQ(WTERMSIG(status), signal);
+}
+
+TEST(File, SignalsLeaveNothingAndWhatAKilledProcessLeftIsSwept) {
+  const TemporaryFolder folder;
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+    end_while_writing(folder.path(), signal);
+    EXPECT_THAT(names_in(folder.path()), ElementsAre()) << signal;
+  }
+  end_while_writing(folder.path(), SIGKILL);
+  EXPECT_EQ(names_in(folder.path()).size(), 2u);
+  write_atomically(folder / "b.txt", [&](const fs::path& temporary) {
+    EXPECT_EQ(names_in(folder.path()).size(), 1u);  // the others are gone, ours is locked
+    end_while_writing(folder.path(), SIGTERM);
+    std::ofstream(temporary) << "whole";
+  });
+  EXPECT_THAT(names_in(folder.path()), ElementsAre("b.txt"));
+  EXPECT_EQ(read_text(folder / "b.txt"), "whole");
 }
 
 TEST(File, ALinkIsFollowedNotReplaced) {

@@ -4,11 +4,13 @@
 #include <cmath>
 
 #include <OpenImageIO/imageio.h>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "sateen/core/colour.h"
 #include "sateen/core/error.h"
 #include "sateen/io/file.h"
+#include "sateen/io/image_rows.h"
 #include "support/files.h"
 
 namespace sateen::io {
@@ -202,6 +204,64 @@ TEST(ImageFile, AnExrIsAsLargeAsItsDisplayWindow) {
   write_with(folder / "a.exr", spec, {1, 2, 3, 4});
   const Image image = read_data(folder / "a.exr");
   EXPECT_EQ(image.data, (std::vector<float>{0, 3, 4, 0, 0, 0, 0, 0, 0, 0, 0, 0}));
+}
+
+/// Each pixel the mean of a square of the picture, those at the edge of less.
+Image box_means(const Image& image, int box) {
+  Image means((image.width + box - 1) / box, (image.height + box - 1) / box, image.channels);
+  for (int y = 0; y < means.height; ++y) {
+    for (int x = 0; x < means.width; ++x) {
+      const Image part = cropped(image, overlap({x * box, y * box, box, box}, image.width, image.height));
+      for (int c = 0; c < image.channels; ++c) {
+        double sum = 0;
+        for (int v = 0; v < part.height; ++v) {
+          for (int u = 0; u < part.width; ++u) sum += part.at(u, v, c);
+        }
+        means.at(x, y, c) = static_cast<float>(sum / (part.width * part.height));
+      }
+    }
+  }
+  return means;
+}
+
+TEST(ImageFile, LargePicturesAreAveragedInLinearLightWhileTheyAreRead) {
+  const TemporaryFolder folder;
+  for (const char* name : {"a.png", "a.jpg", "a.exr", "a.hdr", "a.tif", "a.webp"}) {
+    for (const int channels : {1, 3, 4}) {
+      SCOPED_TRACE(fmt::format("{} {}", name, channels));
+      write_image(folder / name, sample_image(channels));
+      const Image whole = read_image(folder / name);
+      EXPECT_LT(largest_difference(read_image(folder / name, {.most_across = 10}), box_means(whole, 4)),
+                1e-5f);
+      EXPECT_EQ(read_image(folder / name, {.most_across = 37}).data, whole.data);
+      const ReadImageOptions srgb{.encoding = Encoding::srgb, .most_across = 10};
+      EXPECT_LT(largest_difference(read_image(folder / name, srgb),
+                                   box_means(read_image(folder / name, {.encoding = Encoding::srgb}), 4)),
+                1e-5f);
+    }
+  }
+}
+
+/// While it lives, larger pictures are refused.
+struct PixelLimit {
+  std::int64_t before = max_pixels();
+  explicit PixelLimit(std::int64_t pixels) { set_max_pixels(pixels); }
+  ~PixelLimit() { set_max_pixels(before); }
+};
+
+TEST(ImageFile, MorePixelsThanTheLimitAreRefusedUnlessTheyNeverTakeTheirMemory) {
+  const TemporaryFolder folder;
+  write_image(folder / "a.png", sample_image(3));
+  const PixelLimit limit(37 * 23 - 1);
+  const std::string message = failure_of("", [&] { read_image(folder / "a.png"); });
+  EXPECT_THAT(message, testing::HasSubstr("a.png: has 37 x 23 pixels; 850 are the most"));
+  EXPECT_THAT(message, testing::HasSubstr("--max-pixels"));
+  EXPECT_THROW(read_data(folder / "a.png"), Error);
+  EXPECT_EQ(read_image(folder / "a.png", {.most_across = 20}).width, 19);
+  EXPECT_EQ(read_image_info(folder / "a.png").width, 37);
+  ImageRowReader rows(folder / "a.png");
+  std::vector<float> row(37 * 3);
+  rows.read(row);
 }
 
 TEST(ImageFile, AnEmptyPictureIsNotWritten) {

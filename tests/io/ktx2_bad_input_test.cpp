@@ -164,10 +164,19 @@ TEST_F(Ktx2BadInput, ZstandardFramesOfTheWrongSizeAreRefused) {
 
 TEST_F(Ktx2BadInput, ASupercompressedClaimIsMeasuredAgainstTheFile) {
   Bytes bytes = sample(noise_texture(VkFormat::rgba8_srgb, 4, 4), 9);
-  put_number(bytes, ktx2_offset::width, 1u << 16);
-  put_number(bytes, ktx2_offset::height, 1u << 16);
-  put_number(bytes, ktx2_offset::level_index + 16, std::uint64_t{1} << 34);
+  put_number(bytes, ktx2_offset::width, 1u << 14);
+  put_number(bytes, ktx2_offset::height, 1u << 14);
+  put_number(bytes, ktx2_offset::level_index + 16, std::uint64_t{1} << 30);
   EXPECT_THAT(refusal(bytes), HasSubstr("more than its"));
+  put_number(bytes, ktx2_offset::width, 1u << 15);
+  EXPECT_THAT(refusal(bytes), HasSubstr("--max-pixels"));
+  // Whoever wants another kind of texture says so first.
+  const auto other_kind = [](const Ktx2& texture) {
+    EXPECT_TRUE(texture.levels.empty());
+    throw Error("another kind");
+  };
+  write_bytes(path_, bytes);
+  EXPECT_EQ(failure_of("", [&] { read_ktx2(path_, other_kind); }), "another kind");
 }
 
 TEST_F(Ktx2BadInput, TexturesThatContradictThemselvesAreNotWritten) {

@@ -125,6 +125,31 @@ TEST(Ktx2, TexturesThatBelongTogetherAppearTogether) {
   EXPECT_FALSE(std::filesystem::exists(paths[0]));
 }
 
+TEST(Ktx2, AFlippedBitIsSeen) {
+  const test::TemporaryFolder folder;
+  const fs::path path = folder / "a.ktx2";
+  Ktx2 texture = test::noise_texture(VkFormat::rgba8_srgb, 64, 64);
+  texture.metadata["sateen.kind"] = "test";
+  write_ktx2(path, texture);
+  EXPECT_TRUE(ktx2_is_whole(path));
+  const auto whole = read_bytes(path);
+  for (const std::size_t at : {std::size_t{20}, std::size_t{150}, whole.size() / 2, whole.size() - 1}) {
+    auto bytes = whole;
+    bytes[at] ^= std::byte{4};
+    write_bytes(path, bytes);
+    EXPECT_FALSE(ktx2_is_whole(path)) << at;
+  }
+  auto bytes = whole;
+  bytes[whole.size() - 10] ^= std::byte{1};  // in the compressed texels
+  write_bytes(path, bytes);
+  EXPECT_THROW(read_ktx2(path), Error);
+  write_ktx2(path, Ktx2(texture));
+  EXPECT_EQ(read_bytes(path), whole);
+  texture.metadata.clear();
+  write_ktx2(path, texture);
+  EXPECT_FALSE(ktx2_is_whole(path));
+}
+
 TEST(Ktx2, DescriptorsOfBlockFormats) {
   using Words = std::vector<std::uint32_t>;
   const auto one_sample = [](std::uint32_t model, std::uint32_t bytes, std::uint32_t type,

@@ -94,6 +94,16 @@ TEST(MeshFile, DegenerateTrianglesAndUnusedVerticesAreDropped) {
   EXPECT_EQ(mesh.triangles[0], (std::array<std::uint32_t, 3>{0, 1, 2}));
 }
 
+TEST(MeshFile, APlyWithTwoListsOfVerticesIsRefused) {
+  const TemporaryFolder folder;
+  write_text(folder / "a.ply",
+             "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+             "property float s\nproperty float t\nelement vertex 3\nproperty float x\nproperty float y\n"
+             "property float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n"
+             "0 0 0 0 0\n1 0 0 1 0\n0 1 0 0 1\n0 0 0\n1 0 0\n0 1 0\n3 0 1 5\n");
+  EXPECT_THAT(error_of(folder / "a.ply"), HasSubstr("two lists of vertices"));
+}
+
 TEST(MeshFile, PlyInAllEncodingsWithNormalsAndUvs) {
   const TemporaryFolder folder;
   const std::string header =
@@ -288,6 +298,63 @@ TEST(MeshFile, IndicesOutsideTheMeshAreErrors) {
   triangle.last_index = 9;
   write_gltf(folder / "a.glb", triangle);
   EXPECT_NE(error_of(folder / "a.glb"), "no error");
+}
+
+/// A glTF of one triangle whose positions are sparse: element `replaced` is moved to x = 5.
+std::string sparse_gltf(int replaced, const std::string& nodes, const std::string& roots = "0") {
+  const std::array<float, 12> numbers{0, 0, 0, 1, 0, 0, 0, 1, 0, 5, 0, 0};
+  std::string bytes(reinterpret_cast<const char*>(numbers.data()), sizeof numbers);
+  bytes += static_cast<char>(replaced);
+  constexpr const char* kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  bytes.resize(51);
+  std::string base64;
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    unsigned bits = 0;
+    for (std::size_t b = 0; b < 3; ++b) bits = bits << 8 | static_cast<unsigned char>(bytes[i + b]);
+    for (const unsigned shift : {18U, 12U, 6U, 0U}) base64 += kDigits[bits >> shift & 63];
+  }
+  return fmt::format(
+      R"({{"asset": {{"version": "2.0"}}, "scene": 0, "scenes": [{{"nodes": [{}]}}], "nodes": [{}],
+    "meshes": [{{"primitives": [{{"attributes": {{"POSITION": 0}}}}]}}],
+    "buffers": [{{"byteLength": 51, "uri": "data:application/octet-stream;base64,{}"}}],
+    "bufferViews": [{{"buffer": 0, "byteLength": 36}}, {{"buffer": 0, "byteOffset": 36, "byteLength": 12}},
+                    {{"buffer": 0, "byteOffset": 48, "byteLength": 1}}],
+    "accessors": [{{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3",
+                    "sparse": {{"count": 1, "indices": {{"bufferView": 2, "componentType": 5121}},
+                                "values": {{"bufferView": 1}}}}}}]}})",
+      roots, nodes, base64);
+}
+
+TEST(MeshFile, SparseElementsOutsideTheirAccessorAreErrors) {
+  const TemporaryFolder folder;
+  const auto path = folder / "a.gltf";
+  write_text(path, sparse_gltf(1, R"({"mesh": 0})"));
+  const Mesh mesh = read_model(path).mesh;
+  ASSERT_EQ(mesh.positions.size(), 3u);
+  EXPECT_EQ(mesh.positions[1], Vec3f(5, 0, 0));
+  write_text(path, sparse_gltf(3, R"({"mesh": 0})"));
+  EXPECT_THAT(error_of(path), HasSubstr("replaces element 3, there are 3"));
+}
+
+TEST(MeshFile, NodesThatAreNoTreesAreErrors) {
+  const TemporaryFolder folder;
+  const auto path = folder / "a.gltf";
+  const auto fault = [&](const std::string& nodes, const std::string& roots = "0") {
+    write_text(path, sparse_gltf(1, nodes, roots));
+    return error_of(path);
+  };
+  std::string doubling;  // a billion triangles
+  for (int i = 0; i < 30; ++i) doubling += fmt::format(R"({{"children": [{0}, {0}]}}, )", i + 1);
+  EXPECT_THAT(fault(doubling + R"({"mesh": 0})"), HasSubstr("two parents"));
+  EXPECT_THAT(fault(R"({"children": [1]}, {"children": [0], "mesh": 0})"), HasSubstr("in a circle"));
+  EXPECT_THAT(fault(R"({"mesh": 0, "children": [7]})"), HasSubstr("child 7"));
+  EXPECT_THAT(fault(R"({"mesh": 0})", "0, 0, 0"), HasSubstr("twice"));
+  std::string chain;
+  for (int i = 0; i < 1500; ++i) chain += fmt::format(R"({{"children": [{}]}}, )", i + 1);
+  EXPECT_THAT(fault(chain + R"({"mesh": 0})"), HasSubstr("1000 levels"));
+  std::string deep(100000, '[');
+  write_text(path, R"({"asset": {"version": "2.0"}, "extras": )" + deep);
+  EXPECT_THAT(error_of(path), HasSubstr("levels deep"));
 }
 
 TEST(MeshFile, PositionsThatAreNotFiniteAreNamed) {

@@ -77,6 +77,24 @@ TEST(KeptPixels, AreReadBackAndNonsenseIsRefused) {
   EXPECT_THROW(pixels_of_text("000000007c0000000000", 12), Error);  // infinite
 }
 
+// Kept pixels are of the input's size; baking at another wrote outside the picture or drew ghosts.
+TEST(RoundTrip, AnotherSizeIsThePictureAtThatSize) {
+  const Image picture = test::example_matcap("lead", 96);
+  MatcapDecomposition matcap = decompose(picture, inscribed_disc(96, 96), {}, "lead");
+  ASSERT_FALSE(matcap.kept.pixels.empty());
+  for (const int size : {32, 95, 97, 192}) {
+    matcap.width = matcap.height = size;
+    matcap.disc = inscribed_disc(size, size);
+    const Image baked = bake(unedited(matcap));
+    MatcapDecomposition bare = matcap;
+    bare.kept = {};
+    EXPECT_EQ(baked.data, bake(unedited(bare)).data) << size;
+  }
+  matcap.width = matcap.height = 96;
+  matcap.disc = inscribed_disc(96, 96);
+  EXPECT_GT(psnr_on_disc(bake(unedited(matcap)), picture, matcap.disc), 60);
+}
+
 TEST(RoundTrip, HoldsForASphereSomewhereInAPictureAndForGrain) {
   const Disc disc{61.5, 40, 33.25};
   Image picture(120, 90, 3);
@@ -116,9 +134,9 @@ TEST(RoundTrip, TheEdgeOfADrawnSphereComesBackButDoesNotTurn) {
   const MatcapDecomposition without = decompose(clean, disc, {}, "clean");
   const MatcapDecomposition with = decompose(drawn, disc, {}, "drawn");
   // The edge's pixels and no others are kept.
-  EXPECT_TRUE(without.kept.empty());
-  ASSERT_FALSE(with.kept.empty());
-  for (const KeptPixel& pixel : with.kept) {
+  EXPECT_TRUE(without.kept.pixels.empty());
+  ASSERT_FALSE(with.kept.pixels.empty());
+  for (const KeptPixel& pixel : with.kept.pixels) {
     EXPECT_TRUE(
         on_rim(disc, 2, static_cast<int>(pixel.index) % kWidth, static_cast<int>(pixel.index) / kWidth));
   }

@@ -6,6 +6,7 @@
 #include "sateen/brdf/parameters.h"
 #include "sateen/core/error.h"
 #include "sateen/io/image.h"
+#include "sateen/io/json.h"
 
 namespace sateen::brdf {
 
@@ -40,7 +41,7 @@ void read_section(appearance::JsonObject& json, const std::string& section, Laye
 
 std::unique_ptr<LayeredAppearance> LayeredAppearance::parse(const std::string& text,
                                                             const std::filesystem::path& path) {
-  const nlohmann::json value = nlohmann::json::parse(text);
+  const nlohmann::json value = io::parse_json(text, path.string());
   appearance::JsonObject json(value, path.string());
   json.text("model", "layered");
   json.text("name", "");

@@ -11,6 +11,7 @@
 #include "sateen/brdf/fuzz_approximations.h"
 #include "sateen/brdf/layered/point.h"
 #include "sateen/brdf/research/simple_fuzz.h"
+#include "sateen/io/json.h"
 
 namespace sateen::brdf {
 namespace {
@@ -173,7 +174,7 @@ void SlidesAppearance::set(const std::string& name, const ParameterValue& value)
 std::unique_ptr<appearance::Appearance> parse_layered(const std::string& text,
                                                       const std::filesystem::path& path) {
   static const std::array<std::string, 2> approximations{"table", "slides"};
-  const nlohmann::json value = nlohmann::json::parse(text);
+  const nlohmann::json value = io::parse_json(text, path.string());
   std::unique_ptr<LayeredAppearance> layers = LayeredAppearance::parse(text, path);
   appearance::JsonObject json(value, path.string());
   const double simple = std::get<double>(json.read(simple_parameter()));

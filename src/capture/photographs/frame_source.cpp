@@ -146,43 +146,51 @@ void FrameSource::visit(std::span<const int> indices, const std::function<void(i
   tbb::concurrent_queue<io::Picture8> spare;  // memory of frames that are done
   const auto tokens = static_cast<std::size_t>(tbb::this_task_arena::max_concurrency()) + (video_ ? 1 : 0);
 
+  // Not to be cancelled, without a word, by a loop around it (core/parallel.cpp).
+  tbb::task_group_context alone(tbb::task_group_context::isolated);
   tbb::parallel_pipeline(
       tokens,
-      tbb::make_filter<void, Item>(tbb::filter_mode::serial_in_order, [&](tbb::flow_control& control) {
-        Item item;
-        if (next >= indices.size()) {
-          // Only the end of a video tells how long it is.
-          while (reader && !counted_ && reader->skip()) ++position;
-          found_end(position);
-          control.stop();
-          return item;
-        }
-        item.index = indices[next++];
-        spare.try_pop(item.picture);
-        if (!video_) return item;
-        const int wanted = item.index * stride_;
-        bool more = true;
-        while (more && position < wanted) {
-          more = reader->skip();
-          position += more ? 1 : 0;
-        }
-        more = more && reader->next(item.picture);
-        position += more ? 1 : 0;
-        if (!more) {
-          found_end(position);
-          control.stop();
-        }
-        return item;
-      }) & tbb::make_filter<Item, void>(tbb::filter_mode::parallel, [&](Item item) {
-        Photograph frame = video_ ? Photograph(std::move(item.picture), response_)
-                                  : decode(item.index, std::move(item.picture), only);
-        if (frame.width() != width_ || frame.height() != height_) {
-          throw Error(fmt::format("{}: is {} x {} pixels, the first frame is {} x {}; all must be alike",
+      tbb::make_filter<void, Item>(tbb::filter_mode::serial_in_order,
+                                   [&](tbb::flow_control& control) {
+                                     Item item;
+                                     if (next >= indices.size()) {
+                                       // Only the end of a video tells how long it is.
+                                       while (reader && !counted_ && reader->skip()) ++position;
+                                       found_end(position);
+                                       control.stop();
+                                       return item;
+                                     }
+                                     item.index = indices[next++];
+                                     spare.try_pop(item.picture);
+                                     if (!video_) return item;
+                                     const int wanted = item.index * stride_;
+                                     bool more = true;
+                                     while (more && position < wanted) {
+                                       more = reader->skip();
+                                       position += more ? 1 : 0;
+                                     }
+                                     more = more && reader->next(item.picture);
+                                     position += more ? 1 : 0;
+                                     if (!more) {
+                                       found_end(position);
+                                       control.stop();
+                                     }
+                                     return item;
+                                   }) &
+          tbb::make_filter<Item, void>(
+              tbb::filter_mode::parallel,
+              [&](Item item) {
+                Photograph frame = video_ ? Photograph(std::move(item.picture), response_)
+                                          : decode(item.index, std::move(item.picture), only);
+                if (frame.width() != width_ || frame.height() != height_) {
+                  throw Error(
+                      fmt::format("{}: is {} x {} pixels, the first frame is {} x {}; all must be alike",
                                   path(item.index).string(), frame.width(), frame.height(), width_, height_));
-        }
-        body(item.index, frame);
-        spare.push(frame.take_codes());
-      }));
+                }
+                body(item.index, frame);
+                spare.push(frame.take_codes());
+              }),
+      alone);
 }
 
 Photograph FrameSource::read(int index) {

@@ -11,6 +11,7 @@
 #include "sateen/io/camera.h"
 #include "sateen/io/file.h"
 #include "sateen/io/image_encode.h"
+#include "sateen/io/json.h"
 #include "sateen/io/video_reader.h"
 
 namespace sateen::capture {
@@ -68,7 +69,7 @@ std::optional<Plan> read_plan(const fs::path& folder) {
   std::error_code code;
   if (!fs::exists(path, code)) return std::nullopt;
   try {
-    const auto json = nlohmann::json::parse(io::read_text(path));
+    const auto json = io::read_json(path);
     Plan plan{json.at("frames").get<int>(), json.value("degrees", std::vector<double>{})};
     if (plan.degrees.empty() || plan.degrees.size() == static_cast<std::size_t>(plan.frames)) return plan;
   } catch (const nlohmann::json::exception&) {
@@ -79,7 +80,7 @@ std::optional<Plan> read_plan(const fs::path& folder) {
 void write_plan(const fs::path& folder, const Plan& plan) {
   nlohmann::ordered_json json{{"frames", plan.frames}};
   if (!plan.degrees.empty()) json["degrees"] = plan.degrees;
-  io::write_text(folder / "capture.json", json.dump(2) + "\n");
+  io::write_text(folder / "capture.json", io::json_text(json, 2) + "\n");
 }
 
 int frames_in(const fs::path& folder, int frames) {
@@ -104,11 +105,8 @@ std::vector<double> stage_angles(const fs::path& folder) {
 }
 
 LiveResult capture_live(Stage& stage, LiveCamera& camera, const LiveOptions& options) {
+  io::make_folder(options.folder);
   std::error_code code;
-  fs::create_directories(options.folder, code);
-  if (!fs::is_directory(options.folder)) {
-    throw Error(fmt::format("{}: cannot be made as a folder for the frames", options.folder.string()));
-  }
   const std::optional<Plan> earlier = read_plan(options.folder);
   if (earlier && earlier->frames != options.frames) {
     throw Error(

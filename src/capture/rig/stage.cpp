@@ -32,35 +32,24 @@ class GrblStage final : public Stage {
                               device_, options_.baud));
     }
     unlock();
-    try {
+    repeat_after_alarm([&] {
       command("G21");
       command("G90");
       command(fmt::format("G92 {}0", options_.axis));
-    } catch (const Alarm& alarm) {
-      throw Error(fmt::format("{}: the stage raised {} before it moved", device_, alarm.text));
-    }
+    });
   }
 
   void stands_at(double degrees) override {
-    command(fmt::format("G92 {}{:.4f}", options_.axis, units_of(degrees)));
+    repeat_after_alarm([&] { command(fmt::format("G92 {}{:.4f}", options_.axis, units_of(degrees))); });
   }
 
   void move_to(double degrees) override {
     const double units = units_of(degrees);
     const std::string code = fmt::format("G1 {}{:.4f} F{:.1f}", options_.axis, units, options_.feed);
-    for (int attempt = 0;; ++attempt) {
-      try {
-        command(code);
-        wait_until_idle();
-        break;
-      } catch (const Alarm& alarm) {
-        if (attempt > 0) {
-          throw Error(fmt::format("{}: the stage raised {} again after unlocking; look for what blocks it",
-                                  device_, alarm.text));
-        }
-        unlock();
-      }
-    }
+    repeat_after_alarm([&] {
+      command(code);
+      wait_until_idle();
+    });
     std::this_thread::sleep_for(options_.settle);
   }
 
@@ -69,12 +58,27 @@ class GrblStage final : public Stage {
     return degrees / 360 * options_.units_per_turn * (options_.reverse ? -1 : 1);
   }
 
-  struct Alarm {
-    std::string text;
+  struct Alarm : Error {
+    using Error::Error;
   };
 
+  [[noreturn]] void raise(const std::string& what) const {
+    throw Alarm(
+        fmt::format("{}: the stage raised {} again after unlocking; look for what blocks it", device_, what));
+  }
+
+  /// Does what moves or addresses the stage; after an alarm once more, unlocked.
+  void repeat_after_alarm(const std::function<void()>& work) {
+    try {
+      work();
+    } catch (const Alarm&) {
+      unlock();
+      work();
+    }
+  }
+
   void check(const std::string& text) const {
-    if (text.starts_with("ALARM:")) throw Alarm{text};
+    if (text.starts_with("ALARM:")) raise(text);
     if (text.starts_with("error:")) {
       throw Error(fmt::format("{}: the stage refused a command with {}; see GRBL's list of error codes",
                               device_, text));
@@ -119,7 +123,7 @@ class GrblStage final : public Stage {
         const auto text = line_.receive(milliseconds(50));
         if (!text) continue;
         if (text->starts_with("<Idle")) return;
-        if (text->starts_with("<Alarm")) throw Alarm{"an alarm"};
+        if (text->starts_with("<Alarm")) raise("an alarm");
         if (text->starts_with("<")) break;
         check(*text);
       }

@@ -9,6 +9,7 @@
 
 #include "sateen/core/error.h"
 #include "sateen/io/file.h"
+#include "sateen/io/json.h"
 
 namespace sateen::capture {
 namespace {
@@ -76,7 +77,7 @@ double focal_of_fov(int width, double fov) {
 Camera read_camera(const std::filesystem::path& path) {
   const std::string text = io::read_text(path);
   try {
-    const auto json = nlohmann::json::parse(text);
+    const auto json = io::parse_json(text, path.string());
     Camera camera;
     camera.width = json.at("width").get<int>();
     camera.height = json.at("height").get<int>();
@@ -100,7 +101,7 @@ void write_camera(const std::filesystem::path& path, const Camera& camera, doubl
                                     {"principal", {camera.principal.x(), camera.principal.y()}},
                                     {"distortion", camera.distortion},
                                     {"rms_pixels", rms_pixels}};
-  io::write_text(path, json.dump(2) + "\n");
+  io::write_text(path, io::json_text(json, 2) + "\n");
 }
 
 }  // namespace sateen::capture
