@@ -7,13 +7,13 @@
 #include "amc_report.h"
 #include "command.h"
 #include "commands.h"
+#include "json_output.h"
 #include "sateen/amc/amc_file.h"
 #include "sateen/amc/build.h"
 #include "sateen/core/direction.h"
 #include "sateen/core/error.h"
 #include "sateen/io/file.h"
 #include "sateen/io/image.h"
-#include "sateen/io/json.h"
 
 namespace sateen::cli {
 namespace {
@@ -63,7 +63,7 @@ void run(const AmcBuildArguments& arguments) {
     description["slices"] = table.slices;
     description["frames"] = loaded.frames.size();
     description["skipped"] = loaded.skipped;
-    print(io::json_text(description, 2) + "\n");
+    print(json_text(description) + "\n");
   }
 }
 

@@ -6,8 +6,8 @@
 
 #include "command.h"
 #include "commands.h"
+#include "json_output.h"
 #include "sateen/amc/amc_file.h"
-#include "sateen/io/json.h"
 
 namespace sateen::cli {
 namespace {
@@ -51,7 +51,7 @@ std::string as_text(const nlohmann::json& info) {
        {"symmetry", "isotropic", "encoding", "bytes", "texel_bytes", "version", "maximum"}) {
     const auto& value = info[key];
     text += fmt::format("  {:<24} {}\n", key,
-                        value.is_string() ? value.get<std::string>() : io::json_text(value));
+                        value.is_string() ? value.get<std::string>() : json_text(value, -1));
   }
   for (const auto& [key, value] : info["provenance"].items()) {
     text += fmt::format("  {:<24} {}\n", key, value.get<std::string>());
@@ -73,7 +73,7 @@ void add_amc_info(CLI::App& parent) {
   command->add_flag("--json", arguments->json, "Print JSON");
   command->callback([arguments] {
     const nlohmann::json info = describe(arguments->input);
-    print(arguments->json ? io::json_text(info, 2) + "\n" : as_text(info));
+    print(arguments->json ? json_text(info) + "\n" : as_text(info));
   });
 }
 

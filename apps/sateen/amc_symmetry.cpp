@@ -4,7 +4,7 @@
 #include "amc_report.h"
 #include "command.h"
 #include "commands.h"
-#include "sateen/io/json.h"
+#include "json_output.h"
 
 namespace sateen::cli {
 namespace {
@@ -42,7 +42,7 @@ void add_amc_symmetry(CLI::App& parent) {
   command->callback([arguments] {
     const amc::SymmetryReport report =
         amc::analyse_symmetry(load(arguments->frames).frames, arguments->threshold);
-    print(arguments->json ? io::json_text(to_json(report), 2) + "\n" : as_text(report));
+    print(arguments->json ? json_text(to_json(report)) + "\n" : as_text(report));
   });
 }
 

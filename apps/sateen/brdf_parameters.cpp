@@ -6,7 +6,7 @@
 
 #include "command.h"
 #include "commands.h"
-#include "sateen/io/json.h"
+#include "json_output.h"
 #include "sateen/scene/registry.h"
 
 namespace sateen::cli {
@@ -49,7 +49,7 @@ void add_brdf_parameters(CLI::App& parent) {
                     "JSON, with the values the material has, in place of a Markdown table");
   command->callback([options] {
     const auto appearance = scene::load_appearance(options->material);
-    print(options->json ? io::json_text(json_of(*appearance), 2) + "\n"
+    print(options->json ? json_text(json_of(*appearance)) + "\n"
                         : appearance::markdown(appearance->parameters()));
   });
 }

@@ -4,10 +4,10 @@
 
 #include "command.h"
 #include "commands.h"
+#include "json_output.h"
 #include "sateen/capture/sphere/calibrate.h"
 #include "sateen/io/file.h"
 #include "sateen/io/image.h"
-#include "sateen/io/json.h"
 
 namespace sateen::cli {
 namespace {
@@ -34,7 +34,7 @@ void run(const CaptureCalibrateArguments& arguments) {
                                       {"rms_pixels", found.rms_pixels},
                                       {"used", found.used},
                                       {"left_out", found.unusable}};
-  print(io::json_text(report, 2) + "\n");
+  print(json_text(report) + "\n");
 }
 
 }  // namespace

@@ -4,9 +4,9 @@
 
 #include "command.h"
 #include "commands.h"
+#include "json_output.h"
 #include "sateen/core/error.h"
 #include "sateen/io/file.h"
-#include "sateen/io/json.h"
 #include "sateen/texture/lobe_files.h"
 
 namespace sateen::cli {
@@ -93,7 +93,7 @@ void run(MapsAnisoFilterArguments a) {
     report["height"] = source.height();
     report["repaired_normals"] = source.repaired();
     for (const auto& path : written) report["files"].push_back(path.string());
-    print(io::json_text(report, 2) + "\n");
+    print(json_text(report) + "\n");
   }
 }
 

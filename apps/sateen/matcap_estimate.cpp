@@ -7,9 +7,9 @@
 
 #include "command.h"
 #include "commands.h"
+#include "json_output.h"
 #include "matcap_options.h"
 #include "sateen/io/file.h"
-#include "sateen/io/json.h"
 #include "sateen/matcap/matcap_picture.h"
 #include "sateen/matcap/signature_plot.h"
 #include "sateen/matcap/warp.h"
@@ -90,7 +90,7 @@ void run(const MatcapEstimateArguments& arguments) {
     io::write_text(arguments.plot, matcap::signature_svg(curves));
   }
   if (arguments.json) {
-    print(io::json_text(nlohmann::json{{"low", to_json(low)}, {"high", to_json(high)}}, 2) + "\n");
+    print(json_text(nlohmann::json{{"low", to_json(low)}, {"high", to_json(high)}}) + "\n");
   } else {
     print(as_text("low", low) + as_text("high", high));
   }

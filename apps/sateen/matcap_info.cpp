@@ -7,7 +7,7 @@
 
 #include "command.h"
 #include "commands.h"
-#include "sateen/io/json.h"
+#include "json_output.h"
 #include "sateen/matcap/decomposition_file.h"
 
 namespace sateen::cli {
@@ -51,11 +51,11 @@ void add_matcap_info(CLI::App& parent) {
       print(as_text(arguments->input, matcap));
       return;
     }
-    auto info = io::parse_json(matcap::matcap_json(matcap), "the parameters");
+    auto info = nlohmann::json::parse(matcap::matcap_json(matcap));
     info["file"] = arguments->input.string();
     info["version"] = matcap::kMatcapFileVersion;
     info["bytes"] = std::filesystem::file_size(arguments->input);
-    print(io::json_text(info, 2) + "\n");
+    print(json_text(info) + "\n");
   });
 }
 

@@ -163,7 +163,7 @@ Vec3 JsonObject::point(const std::string& key) {
 
 void JsonObject::finish() const {
   for (const auto& [key, value] : value_->items()) {
-    if (std::ranges::none_of(known_, [&](const std::string& k) { return spelled(k) == key; })) {
+    if (std::ranges::none_of(known_, [&, &name = key](const std::string& k) { return spelled(k) == name; })) {
       throw Error(
           fmt::format("{}: unknown key \"{}\"; known here: {}", where_, key, fmt::join(known_, ", ")));
     }

@@ -72,8 +72,9 @@ void fill_tangents(Mesh& mesh, const std::vector<char>& known) {
   const bool some = std::ranges::any_of(known, [](char k) { return k != 0; });
   const std::vector<Link> links = some ? links_to_fill(mesh, known) : std::vector<Link>();
   const auto links_of = [&](std::uint32_t vertex) {
-    const auto range = std::ranges::equal_range(links, vertex, {}, &Link::first);
-    return std::span<const Link>(range.begin(), range.end());
+    const auto begin = std::ranges::lower_bound(links, vertex, {}, &Link::first);
+    return std::span<const Link>(begin,
+                                 std::ranges::upper_bound(begin, links.end(), vertex, {}, &Link::first));
   };
   // round[i]: when a vertex got its tangent, 0 for the known ones, -1 for those still without.
   std::vector<int> round(known.size());
@@ -98,7 +99,7 @@ void fill_tangents(Mesh& mesh, const std::vector<char>& known) {
       }
     }
     std::ranges::sort(front);
-    front.erase(std::ranges::unique(front).begin(), front.end());
+    front.erase(std::unique(front.begin(), front.end()), front.end());
   }
   for (std::size_t i = 0; i < round.size(); ++i) {
     if (round[i] >= 0) continue;

@@ -79,10 +79,6 @@ void check_folder(const fs::path& target, const fs::path& folder) {
   if (access(folder.c_str(), W_OK | X_OK) != 0) fail_errno("write", target);
 }
 
-fs::path folder_of(const fs::path& path) {
-  return path.has_parent_path() ? path.parent_path() : fs::path(".");
-}
-
 void check_writable(const fs::path& target) {
   const fs::path destination = destination_of(target);
   std::error_code code;

@@ -59,9 +59,9 @@ struct Decompressor {
 
 /// libjpeg's decoder on bytes in memory. libjpeg fills what is missing or broken with grey and only warns;
 /// here each warning that means lost pixels is an Error.
-class Decoder : public Decompressor {
+class JpegDecoder : public Decompressor {
  public:
-  Decoder(std::string name, std::span<const std::byte> bytes) : name_(std::move(name)) {
+  JpegDecoder(std::string name, std::span<const std::byte> bytes) : name_(std::move(name)) {
     info.err = jpeg_std_error(&errors_.base);
     errors_.base.error_exit = leave;
     errors_.base.emit_message = on_message;
@@ -74,8 +74,8 @@ class Decoder : public Decompressor {
       jpeg_read_header(&info, TRUE);
     });
   }
-  Decoder(const Decoder&) = delete;
-  Decoder& operator=(const Decoder&) = delete;
+  JpegDecoder(const JpegDecoder&) = delete;
+  JpegDecoder& operator=(const JpegDecoder&) = delete;
 
   /// Runs `work`, out of which libjpeg's errors jump: it may own nothing.
   template <class Work>
@@ -161,12 +161,12 @@ class JpegSource final : public PictureSource {
   }
 
   std::vector<std::byte> bytes_;
-  Decoder decoder_;
+  JpegDecoder decoder_;
 };
 
-struct Encoder {
+struct JpegEncoder {
   jpeg_compress_struct info{};
-  ~Encoder() { jpeg_destroy_compress(&info); }
+  ~JpegEncoder() { jpeg_destroy_compress(&info); }
 };
 
 class JpegSink final : public PictureSink {
@@ -221,7 +221,7 @@ class JpegSink final : public PictureSink {
   std::string name_;
   PictureLayout layout_;
   ErrorManager errors_{};
-  Encoder encoder_;
+  JpegEncoder encoder_;
   std::vector<JSAMPLE> row_;
 };
 
@@ -239,7 +239,7 @@ SinkPtr create_jpeg(std::FILE* stream, const std::string& name, const PictureLay
 bool decode_plain_jpeg(const std::filesystem::path& path, std::span<const std::byte> bytes, Picture8& picture,
                        const PixelRect* only) {
   if (bytes.size() < 2 || bytes[0] != std::byte{0xff} || bytes[1] != std::byte{0xd8}) return false;
-  Decoder decoder(path.string(), bytes);
+  JpegDecoder decoder(path.string(), bytes);
   jpeg_decompress_struct& info = decoder.info;
   const bool colours = info.jpeg_color_space == JCS_YCbCr || info.jpeg_color_space == JCS_RGB ||
                        info.jpeg_color_space == JCS_GRAYSCALE;

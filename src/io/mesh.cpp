@@ -88,7 +88,7 @@ struct MeshFormat {
 };
 
 /// One line a format.
-constexpr std::array<MeshFormat, 4> kFormats{{
+constexpr std::array<MeshFormat, 4> kMeshFormats{{
     {".obj", read_obj},
     {".ply", read_ply_model},
     {".glb", read_gltf},
@@ -100,7 +100,7 @@ constexpr std::array<MeshFormat, 4> kFormats{{
 std::span<const std::string> mesh_extensions() {
   static const std::vector<std::string> extensions = [] {
     std::vector<std::string> result;
-    for (const MeshFormat& format : kFormats) result.emplace_back(format.extension);
+    for (const MeshFormat& format : kMeshFormats) result.emplace_back(format.extension);
     return result;
   }();
   return extensions;
@@ -110,8 +110,9 @@ Model read_model(const fs::path& path) {
   std::error_code code;
   if (!fs::exists(path, code)) fail(path, "no such file");
   if (fs::is_directory(path, code)) fail(path, "is a folder, a mesh file is needed");
-  const auto format = std::ranges::find(kFormats, extension_of(path), &MeshFormat::extension);
-  if (format == kFormats.end()) {
+  if (!fs::is_regular_file(path, code)) fail(path, "is no regular file, a mesh file is needed");
+  const auto format = std::ranges::find(kMeshFormats, extension_of(path), &MeshFormat::extension);
+  if (format == kMeshFormats.end()) {
     fail(path,
          fmt::format("is not a mesh that can be read; known are {}", fmt::join(mesh_extensions(), ", ")));
   }

@@ -26,7 +26,7 @@ bool starts_as_tiff(Start bytes) {
          bytes.starts_with(Start("II+\0", 4)) || bytes.starts_with(Start("MM\0+", 4));
 }
 
-constexpr PictureFormat kFormats[] = {
+constexpr PictureFormat kPictureFormats[] = {
     {.name = "PNG",
      .extensions = kPng,
      .starts_so = [](Start bytes) { return bytes.starts_with("\x89PNG\r\n\x1a\n"); },
@@ -76,8 +76,8 @@ SourcePtr open_known(const fs::path& path) {
   PictureBytes bytes = open_picture_file(path);
   const std::string first = first_bytes(bytes);
   const auto* format =
-      std::ranges::find_if(kFormats, [&](const PictureFormat& f) { return f.starts_so(first); });
-  if (format == std::end(kFormats)) return nullptr;
+      std::ranges::find_if(kPictureFormats, [&](const PictureFormat& f) { return f.starts_so(first); });
+  if (format == std::end(kPictureFormats)) return nullptr;
   // Raw files of cameras are TIFFs by their structure.
   if (format->open == open_tiff && format_of_extension(extension_of(path)) == nullptr) return nullptr;
   return format->open(std::move(bytes));
@@ -86,14 +86,14 @@ SourcePtr open_known(const fs::path& path) {
 }  // namespace
 
 std::span<const PictureFormat> picture_formats() {
-  return kFormats;
+  return kPictureFormats;
 }
 
 const PictureFormat* format_of_extension(std::string_view extension) {
-  const auto* format = std::ranges::find_if(kFormats, [&](const PictureFormat& f) {
+  const auto* format = std::ranges::find_if(kPictureFormats, [&](const PictureFormat& f) {
     return std::ranges::find(f.extensions, extension) != f.extensions.end();
   });
-  return format == std::end(kFormats) ? nullptr : format;
+  return format == std::end(kPictureFormats) ? nullptr : format;
 }
 
 SourcePtr open_picture(const fs::path& path) {

@@ -10,10 +10,10 @@
 namespace sateen::io {
 namespace {
 
-struct Decoder {
+struct PngDecoder {
   png_structp png = nullptr;
   png_infop info = nullptr;
-  ~Decoder() { png_destroy_read_struct(&png, &info, nullptr); }
+  ~PngDecoder() { png_destroy_read_struct(&png, &info, nullptr); }
 };
 
 /// The colours that the code points of ITU-T H.273 name.
@@ -147,7 +147,7 @@ class PngSource final : public PictureSource {
 
   PictureBytes bytes_;
   PngEscape escape_;
-  Decoder decoder_;
+  PngDecoder decoder_;
   int passes_ = 1;
   bool interlaced_ = false;
   std::vector<png_byte> whole_;

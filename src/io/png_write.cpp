@@ -5,10 +5,10 @@
 namespace sateen::io {
 namespace {
 
-struct Encoder {
+struct PngEncoder {
   png_structp png = nullptr;
   png_infop info = nullptr;
-  ~Encoder() { png_destroy_write_struct(&png, &info); }
+  ~PngEncoder() { png_destroy_write_struct(&png, &info); }
 };
 
 class PngSink final : public PictureSink {
@@ -71,7 +71,7 @@ class PngSink final : public PictureSink {
   std::string name_;
   PictureLayout layout_;
   PngEscape escape_;
-  Encoder encoder_;
+  PngEncoder encoder_;
   std::vector<png_byte> row_;
 };
 

@@ -42,10 +42,6 @@ UnderWay& under_way() {
   fail(target, "cannot be written: " + std::generic_category().message(reason));
 }
 
-fs::path folder_of(const fs::path& path) {
-  return path.has_parent_path() ? path.parent_path() : fs::path(".");
-}
-
 /// Removes what dead processes left in a folder: what nobody has locked.
 void sweep(const fs::path& folder) {
   std::error_code code;
@@ -75,6 +71,10 @@ int exchange(const fs::path& a, const fs::path& b) {
 }
 
 }  // namespace
+
+fs::path folder_of(const fs::path& path) {
+  return path.has_parent_path() ? path.parent_path() : fs::path(".");
+}
 
 Temporary::Temporary(const fs::path& target, Kind kind) : target_(target), kind_(kind) {
   static std::atomic<unsigned> counter{0};

@@ -5,6 +5,9 @@
 
 namespace sateen::io {
 
+/// The folder a file lies in, "." for a mere name.
+std::filesystem::path folder_of(const std::filesystem::path& path);
+
 /// A file or folder beside its target, hidden, that takes the target's name when it is whole and is removed
 /// otherwise. While it lives its process holds a lock on it: what a killed process left is told by that and
 /// removed by the next one that writes into the folder.

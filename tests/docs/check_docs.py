@@ -7,7 +7,6 @@ commands  runs every `sateen` command of README.md, docs/ and the examples at th
 snippets  compiles the C++ of the pages, each on its own
 links     every link between the pages, and to a heading, leads somewhere
 """
-import os
 import re
 import shlex
 import shutil
@@ -19,6 +18,10 @@ from pathlib import Path
 # A user's own files in the pages, and what stands for them.
 STAND_INS = {"examples/textures/weave_normal.png": ["normal.png", "u.png", "v.png", "angle.png", "orm.png", "anisotropy.png",
                                                     "level.png", "turns.png", "rough.png"]}
+
+
+# What a user of `sateen shade` has rendered before.
+PREPARE = ["render examples/garment/jacket.obj --material examples/materials/satin.json --size 64 --aov normal,tangent -o jacket.png"]
 
 
 def pages(source):
@@ -67,18 +70,20 @@ def check_commands(source, program):
         for file, names in STAND_INS.items():
             for stand_in in names:
                 shutil.copy(source / file, folder / stand_in)
+        (folder / "photos").symlink_to(source / "examples/capture")
         (folder / "edits.json").write_text('[{"edit": "intensity", "part": "high", "factor": 0.5}]')
-        environment = dict(os.environ, SLURM_ARRAY_TASK_ID="1", SLURM_ARRAY_TASK_COUNT="8")
+        variables = {"$SLURM_ARRAY_TASK_ID": "1", "$SLURM_ARRAY_TASK_COUNT": "8"}
+        groups.insert(0, ("before", [shlex.split(line) for line in PREPARE]))
         count = 0
         for where, commands in groups:
             for words in commands:
-                words = [os.path.expandvars(word.replace("$SLURM_ARRAY_TASK_ID", "1").replace("$SLURM_ARRAY_TASK_COUNT", "8"))
-                         for word in words]
+                for variable, value in variables.items():
+                    words = [word.replace(variable, value) for word in words]
                 if any(word in NEEDS for word in words):
                     print(f"{where}: not run, it needs {NEEDS[next(w for w in words if w in NEEDS)]}: sateen {shlex.join(words)}")
                     continue
                 count += 1
-                run = subprocess.run([program, *words], cwd=folder, capture_output=True, text=True, env=environment)
+                run = subprocess.run([program, *words], cwd=folder, capture_output=True, text=True)
                 if run.returncode != 0:
                     print(f"{where}: sateen {shlex.join(words)}\n{run.stdout}{run.stderr}")
                     faults += 1

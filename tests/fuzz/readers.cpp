@@ -12,6 +12,7 @@
 #include "sateen/capture/sphere/camera.h"
 #include "sateen/core/error.h"
 #include "sateen/io/exif.h"
+#include "sateen/io/file.h"
 #include "sateen/io/image.h"
 #include "sateen/io/image_memory.h"
 #include "sateen/io/image_rows.h"

@@ -1,0 +1,2 @@
+// SPDX-License-Identifier: MIT
+const auto value = nlohmann::json::parse(text);
