@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
+#include <array>
 #include <exception>
 
 #include <OpenEXR/ImfChannelList.h>
@@ -78,6 +79,8 @@ class ExrSource final : public PictureSource {
 
  private:
   Imf::Header first_header() {
+    check_attributes();
+    std::rewind(bytes_.stream.get());
     int magic = 0;
     int version = 0;
     Imf::Xdr::read<Imf::StreamIO>(input_, magic);
@@ -87,6 +90,36 @@ class ExrSource final : public PictureSource {
     Imf::Header header;
     header.readFrom(input_, version);
     return header;
+  }
+
+  /// OpenEXR takes memory for an attribute by the size the file claims.
+  void check_attributes() {
+    std::FILE* stream = bytes_.stream.get();
+    const auto text = [&] {
+      std::string result;
+      for (int c = std::fgetc(stream); c > 0; c = std::fgetc(stream)) result += static_cast<char>(c);
+      return result;
+    };
+    std::array<unsigned char, 8> start{};
+    if (std::fread(start.data(), 1, start.size(), stream) != start.size()) return;
+    const bool parts = (start[5] & 0x10) != 0;  // a header for each, and an empty one
+    for (bool header = true; header; header = parts) {
+      bool empty = true;
+      while (!text().empty()) {
+        empty = false;
+        text();  // its type
+        std::array<unsigned char, 4> size{};
+        if (std::fread(size.data(), 1, size.size(), stream) != size.size()) return;
+        const std::uint64_t claimed = std::uint64_t{size[3]} << 24 |
+                                      static_cast<std::uint64_t>(size[2]) << 16 |
+                                      static_cast<std::uint64_t>(size[1]) << 8 | size[0];
+        const auto at = static_cast<std::uint64_t>(std::ftell(stream));
+        if (at + claimed > bytes_.count)
+          fail(bytes_.name, "is truncated or corrupt: an attribute reaches past its end");
+        std::fseek(stream, static_cast<long>(at + claimed), SEEK_SET);
+      }
+      if (empty) return;
+    }
   }
 
   void read_header(const Imf::Header& exr) {

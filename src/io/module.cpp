@@ -36,6 +36,14 @@ std::vector<fs::path> places() {
   return places;
 }
 
+[[noreturn]] void fail_missing(const std::string& for_what, const std::string& file, const std::string& fault,
+                               const std::string& packages) {
+  throw Error(
+      fmt::format("{} needs the module {}: {}. It belongs into lib/sateen beside the program's bin (or "
+                  "where SATEEN_MODULE_PATH says) and stands on {}",
+                  for_what, file, fault, packages));
+}
+
 template <class Module>
 const Module& load(const std::string& for_what, const char* packages) {
   const std::string file = std::string(Module::kName) + ".so";
@@ -57,17 +65,14 @@ const Module& load(const std::string& for_what, const char* packages) {
         fmt::format("the one in {} is of version {}, not " SATEEN_VERSION, place.string(), entry()->version);
     break;
   }
-  throw Error(
-      fmt::format("{} needs the module {}: {}. It belongs into lib/sateen beside the program's bin (or "
-                  "where SATEEN_MODULE_PATH says) and stands on {}",
-                  for_what, file, fault, packages));
+  fail_missing(for_what, file, fault, packages);
 }
 
 }  // namespace
 
 const OiioModule& oiio_module(const std::string& for_what) {
   static const OiioModule* module = nullptr;
-  if (module == nullptr) module = &load<OiioModule>(for_what, "OpenImageIO (libopenimageio2.4 or later)");
+  if (module == nullptr) module = &load<OiioModule>(for_what, kOpenImageIoPackages);
   return *module;
 }
 
@@ -78,12 +83,12 @@ const VideoModule& video_module(const std::string& for_what) {
   return *module;
 }
 
-std::unique_ptr<PictureSource> open_with_openimageio(const fs::path& path) {
-  return oiio_module(
-             fmt::format("{}: cannot be read as a picture: it is no PNG, JPEG, OpenEXR, Radiance HDR, WebP "
-                         "or usual TIFF, and any other kind",
-                         path.string()))
-      .open(path.string());
+fs::path module_program(const std::string& name, const std::string& for_what, const std::string& packages) {
+  for (const fs::path& place : places()) {
+    std::error_code code;
+    if (fs::exists(place / name, code)) return place / name;
+  }
+  fail_missing(for_what, name, "it is not installed", packages);
 }
 
 }  // namespace sateen::io

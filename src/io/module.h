@@ -15,7 +15,9 @@ namespace sateen::io {
 const OiioModule& oiio_module(const std::string& for_what);
 const VideoModule& video_module(const std::string& for_what);
 
-/// A picture of a format the library itself does not read. Throws Error when OpenImageIO does not either.
-std::unique_ptr<PictureSource> open_with_openimageio(const std::filesystem::path& path);
+/// A program that lies where the modules do. Throws Error likewise; it stands on `packages`.
+std::filesystem::path module_program(const std::string& name, const std::string& for_what,
+                                     const std::string& packages);
+inline constexpr const char* kOpenImageIoPackages = "OpenImageIO (libopenimageio2.4 or later)";
 
 }  // namespace sateen::io

@@ -15,8 +15,6 @@ struct OiioModule {
   static constexpr const char* kName = "sateen-oiio";
   const char* version;  ///< of Sateen
 
-  /// Any picture file OpenImageIO reads. Throws Error.
-  std::unique_ptr<PictureSource> (*open)(const std::string& path);
   /// The picture in a DDS file. Throws Error, which calls it `name`.
   std::unique_ptr<PictureSource> (*open_dds)(std::span<const std::byte> file, const std::string& name);
 };

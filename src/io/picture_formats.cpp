@@ -6,7 +6,7 @@
 
 #include "sateen/io/file.h"
 #include "sateen/io/file_error.h"
-#include "sateen/io/module.h"
+#include "sateen/io/picture_process.h"
 
 namespace sateen::io {
 namespace {

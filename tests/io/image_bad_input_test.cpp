@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <cstring>
 #include <functional>
 #include <limits>
 #include <random>
@@ -64,6 +65,31 @@ TEST_F(ImageBadInput, TruncatedPicturesOfEveryTypeAreRefused) {
       const auto length = static_cast<std::ptrdiff_t>(share * static_cast<double>(whole.size()));
       EXPECT_NE(refusal(name, Bytes(whole.begin(), whole.begin() + length)), "") << name << " " << share;
     }
+  }
+}
+
+// OpenImageIO's decoder ends its process with an exception nobody catches, or takes a gigabyte.
+TEST_F(ImageBadInput, WhatBreaksADecoderOfAnotherKindIsAMessage) {
+  const auto bytes_of = [](const std::string& text) {
+    const auto bytes = std::as_bytes(std::span(text));
+    return Bytes(bytes.begin(), bytes.end());
+  };
+  EXPECT_NE(refusal("a.png", bytes_of(std::string("GIF\xff\xff\xff\xff\xff\xff\xff\0"
+                                                  "89a\0\0\x0b;",
+                                                  18))),
+            "");
+  EXPECT_NE(refusal("b.png", bytes_of(std::string("GIF89a\1\0\1\0\0\0\0;", 14))), "");
+  EXPECT_NE(refusal("a.psd", bytes_of("8BPS" + std::string(60, '\xff'))), "");
+  EXPECT_THAT(refusal("a.txt", bytes_of("neither picture nor secret")), HasSubstr("no known kind"));
+}
+
+TEST_F(ImageBadInput, AnExrAttributeLargerThanTheFileIsRefusedBeforeItsMemory) {
+  Bytes bytes = written("a.exr", noise(4, 4, 3));
+  const std::string_view all(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  const std::size_t at = all.find("chlist") + 7;
+  for (const std::uint32_t size : {0x7fffffffU, 0xffffffffU, 100000U}) {
+    std::memcpy(bytes.data() + at, &size, sizeof size);
+    EXPECT_THAT(refusal("a.exr", bytes), HasSubstr("attribute reaches past its end"));
   }
 }
 
