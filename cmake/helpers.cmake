@@ -9,6 +9,11 @@ if(SATEEN_WERROR)
 endif()
 # Builds that look for faults check every access.
 target_compile_definitions(sateen_options INTERFACE $<$<CONFIG:Debug>:_GLIBCXX_ASSERTIONS>)
+if(SATEEN_ODR)
+  # Objects with both code and types; programs are linked from the code as ever.
+  target_compile_options(sateen_options INTERFACE -flto=auto -ffat-lto-objects)
+  target_link_options(sateen_options INTERFACE -fno-lto)
+endif()
 if(SATEEN_SANITIZE)
   # Line numbers are all a report needs of debug information. GCC 12 sees uninitialised values in its own <regex> when
   # sanitizers are on. The checks left out double the time files take to compile, and where a bad pointer matters the

@@ -12,7 +12,7 @@ import { fileURLToPath } from 'node:url';
 
 function skip(reason) {
   console.log(`skipped: ${reason}`);
-  process.exit(77);
+  process.exit(process.env.SATEEN_REQUIRE_WEB ? 1 : 77);
 }
 const packages = new URL('node_modules/', import.meta.url);
 if (!existsSync(new URL('playwright-core', packages))) skip('playwright-core is missing; run "npm ci" in tests/web (./test does)');
