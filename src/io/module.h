@@ -3,6 +3,7 @@
 
 #include <filesystem>
 
+#include "sateen/io/camera_module.h"
 #include "sateen/io/oiio_module.h"
 #include "sateen/io/video_module.h"
 
@@ -14,6 +15,7 @@ namespace sateen::io {
 /// is missing or of another version.
 const OiioModule& oiio_module(const std::string& for_what);
 const VideoModule& video_module(const std::string& for_what);
+const CameraModule& camera_module(const std::string& for_what);
 
 /// A picture of a format the library itself does not read. Throws Error when OpenImageIO does not either.
 std::unique_ptr<PictureSource> open_with_openimageio(const std::filesystem::path& path);
