@@ -8,7 +8,7 @@
 
 namespace sateen::io {
 
-Camera::Camera(int index) : frames_(video_module("a camera").open_camera(index)) {
+Camera::Camera(int index) : frames_(camera_module("a camera").open_camera(index)) {
   if (!frames_) {
     throw Error(fmt::format(
         "no camera {} answers (V4L2); look at /dev/video* and whether another program uses it", index));

@@ -9,12 +9,12 @@
 
 namespace sateen::io {
 
-class FrameSource;
+class CameraSource;
 
 /// A camera of the system (V4L2), with its exposure, white balance and focus held where they settle.
 class Camera {
  public:
-  /// Throws Error when no camera of that number answers, or the module for films is not installed.
+  /// Throws Error when no camera of that number answers, or the module for cameras is not installed.
   explicit Camera(int index);
   ~Camera();
   Camera(Camera&&) noexcept;
@@ -26,7 +26,7 @@ class Camera {
   std::vector<std::string> not_fixed() const;
 
  private:
-  std::unique_ptr<FrameSource> frames_;
+  std::unique_ptr<CameraSource> frames_;
 };
 
 }  // namespace sateen::io

@@ -79,7 +79,14 @@ const OiioModule& oiio_module(const std::string& for_what) {
 const VideoModule& video_module(const std::string& for_what) {
   static const VideoModule* module = nullptr;
   if (module == nullptr)
-    module = &load<VideoModule>(for_what, "OpenCV's videoio (libopencv-videoio406 or later)");
+    module = &load<VideoModule>(for_what, "FFmpeg (libavformat59, libavcodec59, libswscale6 or later)");
+  return *module;
+}
+
+const CameraModule& camera_module(const std::string& for_what) {
+  static const CameraModule* module = nullptr;
+  if (module == nullptr)
+    module = &load<CameraModule>(for_what, "OpenCV's videoio (libopencv-videoio406 or later)");
   return *module;
 }
 

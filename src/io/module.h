@@ -3,6 +3,7 @@
 
 #include <filesystem>
 
+#include "sateen/io/camera_module.h"
 #include "sateen/io/oiio_module.h"
 #include "sateen/io/video_module.h"
 
@@ -14,6 +15,7 @@ namespace sateen::io {
 /// is missing or of another version.
 const OiioModule& oiio_module(const std::string& for_what);
 const VideoModule& video_module(const std::string& for_what);
+const CameraModule& camera_module(const std::string& for_what);
 
 /// A program that lies where the modules do. Throws Error likewise; it stands on `packages`.
 std::filesystem::path module_program(const std::string& name, const std::string& for_what,

@@ -40,6 +40,8 @@ void write_video(const fs::path& path, int count, double frames_per_second,
     throw Error(fmt::format("{}: films are written as .mp4, .mov or .avi", path.string()));
   const VideoModule& module = video_module(path.string() + ": writing a film");
   write_atomically(path, [&](const fs::path& temporary) {
+    FilmSettings settings{temporary.string(), path.string(), extension_of(path).substr(1), 0, 0,
+                          frames_per_second};
     std::unique_ptr<FrameSink> film;
     for (int i = 0; i < count; ++i) {
       const Image image = picture(i);
@@ -48,16 +50,19 @@ void write_video(const fs::path& path, int count, double frames_per_second,
           throw Error(fmt::format("{}: a film needs an even width and height, not {} x {}", path.string(),
                                   image.width, image.height));
         }
-        film = module.create_film(temporary.string(), image.width, image.height, frames_per_second);
-        if (!film) {
-          throw Error(
-              fmt::format("{}: no film can be written there; is the folder writable and an MPEG-4 encoder "
-                          "installed?",
-                          path.string()));
-        }
+        settings.width = image.width;
+        settings.height = image.height;
+        film = module.create_film(settings);
+      }
+      if (image.width != settings.width || image.height != settings.height) {
+        throw Error(fmt::format("{}: picture {} is {} x {}, the first one {} x {}; a film's must be alike",
+                                path.string(), i, image.width, image.height, settings.width,
+                                settings.height));
       }
       film->write(frame_of(image));
     }
+    if (!film) throw Error(fmt::format("{}: a film needs a picture at least", path.string()));
+    film->finish();
   });
 }
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "sateen/io/video_reader.h"
 
-#include <array>
 #include <cmath>
 
 #include <fmt/format.h>
 
 #include "sateen/core/error.h"
+#include "sateen/core/parallel.h"
 #include "sateen/io/film_formats.h"
 #include "sateen/io/module.h"
 
@@ -24,14 +24,7 @@ std::span<const std::string> video_extensions() {
 VideoReader::VideoReader(const std::filesystem::path& path) {
   std::error_code code;
   if (!std::filesystem::exists(path, code)) throw Error(fmt::format("{}: no such file", path.string()));
-  frames_ = video_module(path.string() + ": reading a film").open_film(path.string());
-  if (!frames_ || width() < 1 || height() < 1) {
-    throw Error(
-        fmt::format("{}: cannot be decoded as a video; its index may be missing (an interrupted recording) "
-                    "or its codec unknown. "
-                    "Copy it through ffmpeg into an .mp4, or extract its frames as pictures",
-                    path.string()));
-  }
+  frames_ = video_module(path.string() + ": reading a film").open_film(path.string(), thread_limit());
 }
 
 VideoReader::~VideoReader() = default;
@@ -62,6 +55,10 @@ bool VideoReader::next(Picture8& frame) {
 
 bool VideoReader::skip() {
   return frames_->skip();
+}
+
+double VideoReader::seconds() const {
+  return frames_->seconds();
 }
 
 }  // namespace sateen::io
