@@ -142,11 +142,11 @@ void bound() {
     const rlimit value{most, most};
     setrlimit(resource, &value);
   };
-#if !defined(__SANITIZE_ADDRESS__)
+#if !defined(__SANITIZE_ADDRESS__)  // which takes addresses by the terabyte and writes files of its own
   limit(RLIMIT_AS, kMostAddresses);
+  limit(RLIMIT_FSIZE, 0);
 #endif
   limit(RLIMIT_CPU, kMostSeconds);
-  limit(RLIMIT_FSIZE, 0);
   limit(RLIMIT_CORE, 0);
 }
 
