@@ -99,7 +99,7 @@ std::string kind_of(const std::string& path) {
 }
 
 void put(const void* bytes, std::size_t count) {
-  if (std::fwrite(bytes, 1, count, stdout) != count) _exit(1);  // nobody listens any more
+  if (count > 0 && std::fwrite(bytes, 1, count, stdout) != count) _exit(1);  // nobody listens any more
 }
 
 void send(const std::string& path) {
