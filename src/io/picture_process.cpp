@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "sateen/io/picture_process.h"
 
+#include <algorithm>
 #include <array>
 #include <csignal>
+#include <cstdio>
 #include <cstring>
+#include <string_view>
 #include <utility>
 
 #include <fcntl.h>
@@ -12,7 +15,9 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "sateen/io/file.h"
 #include "sateen/io/file_error.h"
+#include "sateen/io/file_stream.h"
 #include "sateen/io/module.h"
 
 extern char** environ;
@@ -21,6 +26,88 @@ namespace sateen::io {
 namespace {
 
 namespace fs = std::filesystem;
+using namespace std::string_view_literals;
+
+std::string mark_of(const fs::path& path) {
+  std::string first(16, '\0');
+  const PictureBytes bytes = open_picture_file(path);
+  first.resize(std::fread(first.data(), 1, first.size(), bytes.stream.get()));
+  return first;
+}
+
+/// OpenImageIO's name of a kind, and how its files begin.
+struct MarkedKind {
+  std::string_view name;
+  std::string_view start;
+  std::size_t at = 0;
+};
+
+constexpr MarkedKind kMarkedKinds[] = {
+    {"gif", "GIF87a"},
+    {"gif", "GIF89a"},
+    {"bmp", "BM"},
+    {"psd", "8BPS"},
+    {"dpx", "SDPX"},
+    {"dpx", "XPDS"},
+    {"cineon", "\x80\x2a\x5f\xd7"},
+    {"cineon", "\xd7\x5f\x2a\x80"},
+    {"sgi", "\x01\xda"},
+    {"dds", "DDS "},
+    {"jpeg2000", "\0\0\0\x0cjP"sv},
+    {"jpeg2000", "\xff\x4f\xff\x51"},
+    {"ico", "\0\0\1\0"sv},
+    {"fits", "SIMPLE"},
+    {"heif", "ftyphei", 4},
+    {"heif", "ftypmif1", 4},
+    {"heif", "ftypmsf1", 4},
+    {"heif", "ftypavif", 4},
+    {"iff", "FOR4"},
+    {"softimage", "\x53\x80\xf6\x34"},
+    {"pnm", "P1"},
+    {"pnm", "P2"},
+    {"pnm", "P3"},
+    {"pnm", "P4"},
+    {"pnm", "P5"},
+    {"pnm", "P6"},
+    {"pnm", "Pf"},
+    {"pnm", "PF"},
+    // Those of the library's own kinds that it leaves to OpenImageIO.
+    {"tiff", "II*\0"sv},
+    {"tiff", "MM\0*"sv},
+    {"tiff", "II+\0"sv},
+    {"tiff", "MM\0+"sv},
+    {"webp", "WEBP", 8},
+    {"jpeg", "\xff\xd8\xff"},
+    {"png", "\x89PNG"},
+    {"openexr", "\x76\x2f\x31\x01"},
+};
+
+/// Kinds that only their extension tells.
+struct UnmarkedKind {
+  std::string_view name;
+  std::string_view extension;
+};
+constexpr UnmarkedKind kUnmarkedKinds[] = {
+    {"targa", ".tga"}, {"targa", ".tpic"}, {"rla", ".rla"}, {"zfile", ".zfile"}, {"raw", ".cr2"},
+    {"raw", ".cr3"},   {"raw", ".nef"},    {"raw", ".arw"}, {"raw", ".dng"},     {"raw", ".orf"},
+    {"raw", ".rw2"},   {"raw", ".raf"},    {"raw", ".pef"}, {"raw", ".srw"},     {"raw", ".crw"},
+    {"raw", ".nrw"},   {"raw", ".sr2"},    {"raw", ".3fr"}, {"raw", ".erf"},     {"raw", ".iiq"},
+    {"raw", ".mrw"},   {"raw", ".x3f"},    {"raw", ".kdc"}, {"raw", ".mef"},
+};
+
+/// The one decoder to ask; none of the others gets to see the file.
+std::string kind_of(const fs::path& path) {
+  const std::string first = mark_of(path);
+  const std::string extension = extension_of(path);
+  for (const UnmarkedKind& ending : kUnmarkedKinds) {
+    if (ending.extension == extension) return std::string(ending.name);
+  }
+  for (const MarkedKind& kind : kMarkedKinds) {
+    if (std::string_view(first).substr(std::min(kind.at, first.size())).starts_with(kind.start))
+      return std::string(kind.name);
+  }
+  fail(path, "cannot be read as a picture: its first bytes are those of no known kind");
+}
 
 struct Pipe {
   std::array<int, 2> ends{-1, -1};
@@ -40,7 +127,7 @@ struct Pipe {
 /// The running program; ended with its scope.
 class Process {
  public:
-  Process(const fs::path& program, const fs::path& picture) {
+  Process(const fs::path& program, const fs::path& picture, std::string kind) {
     Pipe out;
     Pipe messages;
     posix_spawn_file_actions_t files;
@@ -57,7 +144,7 @@ class Process {
     posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGMASK);
     std::string name = program.string();
     std::string argument = picture.string();
-    char* const arguments[] = {name.data(), argument.data(), nullptr};
+    char* const arguments[] = {name.data(), argument.data(), kind.data(), nullptr};
     const int fault = posix_spawn(&id_, name.c_str(), &files, &attributes, arguments, environ);
     posix_spawnattr_destroy(&attributes);
     posix_spawn_file_actions_destroy(&files);
@@ -103,7 +190,8 @@ class Process {
 
 class ProcessSource final : public PictureSource {
  public:
-  ProcessSource(const fs::path& program, const fs::path& path) : path_(path), process_(program, path) {
+  ProcessSource(const fs::path& program, const fs::path& path, const std::string& kind)
+      : path_(path), process_(program, path, kind) {
     PictureStart start;
     if (!process_.read(&start, sizeof start)) fail(path, process_.message());
     if (std::strncmp(start.version, SATEEN_VERSION, sizeof start.version) != 0)
@@ -137,13 +225,14 @@ class ProcessSource final : public PictureSource {
 }  // namespace
 
 std::unique_ptr<PictureSource> open_with_openimageio(const fs::path& path) {
+  const std::string kind = kind_of(path);
   const fs::path program = module_program(
       "sateen-read-picture",
       fmt::format("{}: cannot be read as a picture: it is no PNG, JPEG, OpenEXR, Radiance HDR, WebP "
                   "or usual TIFF, and any other kind",
                   path.string()),
       kOpenImageIoPackages);
-  return std::make_unique<ProcessSource>(program, path);
+  return std::make_unique<ProcessSource>(program, path, kind);
 }
 
 }  // namespace sateen::io

@@ -35,7 +35,9 @@ inline constexpr int kMessageFile = 3;
 inline constexpr std::uint64_t kMostAddresses = std::uint64_t{8} << 30;
 inline constexpr std::uint64_t kMostSeconds = 120;
 
-/// Throws Error naming the file when it is no picture OpenImageIO reads, or the program is missing.
+/// The kind is told by the file's first bytes or, for those that have no mark, by its extension; no other
+/// decoder gets to see it. Throws Error naming the file when it is of no known kind, when its decoder refuses
+/// it, or the program is missing.
 std::unique_ptr<PictureSource> open_with_openimageio(const std::filesystem::path& path);
 
 }  // namespace sateen::io

@@ -45,7 +45,7 @@ class ImageBadInput : public ::testing::Test {
   }
 
   std::string refusal(const std::string& name, const Bytes& bytes) {
-    write_bytes(folder_ / name, bytes);
+    test::put_bytes(folder_ / name, bytes);
     return refusal(folder_ / name);
   }
 

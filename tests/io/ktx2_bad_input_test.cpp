@@ -27,7 +27,7 @@ class Ktx2BadInput : public ::testing::Test {
 
   /// The message read_ktx2 refuses `bytes` with; empty when it reads them.
   std::string refusal(const Bytes& bytes) {
-    write_bytes(path_, bytes);
+    put_bytes(path_, bytes);
     try {
       read_ktx2(path_);
     } catch (const Error& error) {

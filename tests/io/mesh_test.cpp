@@ -45,8 +45,9 @@ constexpr const char* kSquare = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 
 
 TEST(MeshFile, ObjKeepsUvsUpAndJoinsCornersButNotSeams) {
   const TemporaryFolder folder;
-  write_text(folder / "a.obj",
-             fmt::format("{}usemtl red\nf 1/1 2/2 3/3\nusemtl blue cloth\nf -4/-4 -2/-2 -1/-1\n", kSquare));
+  test::put_text(
+      folder / "a.obj",
+      fmt::format("{}usemtl red\nf 1/1 2/2 3/3\nusemtl blue cloth\nf -4/-4 -2/-2 -1/-1\n", kSquare));
   const Model model = read_model(folder / "a.obj");
   EXPECT_EQ(model.mesh.positions.size(), 4u);
   EXPECT_EQ(model.mesh.triangles.size(), 2u);
@@ -57,7 +58,7 @@ TEST(MeshFile, ObjKeepsUvsUpAndJoinsCornersButNotSeams) {
   EXPECT_EQ(model.mesh.material_ids, (std::vector<std::uint32_t>{0, 1}));
   EXPECT_EQ(model.materials.size(), 2u);
 
-  write_text(folder / "seam.obj", fmt::format("{}vt 5 5\nf 1/1 2/2 3/3\nf 1/5 3/3 4/4\n", kSquare));
+  test::put_text(folder / "seam.obj", fmt::format("{}vt 5 5\nf 1/1 2/2 3/3\nf 1/5 3/3 4/4\n", kSquare));
   EXPECT_EQ(read_model(folder / "seam.obj").mesh.positions.size(), 5u);
 }
 
@@ -70,12 +71,12 @@ TEST(MeshFile, TheExampleGarmentIsWhole) {
 
 TEST(MeshFile, PolygonsBecomeTrianglesConcaveOnesToo) {
   const TemporaryFolder folder;
-  write_text(folder / "quad.obj", fmt::format("{}f 1 2 3 4\n", kSquare));
+  test::put_text(folder / "quad.obj", fmt::format("{}f 1 2 3 4\n", kSquare));
   const Mesh quad = read_model(folder / "quad.obj").mesh;
   EXPECT_EQ(quad.triangles.size(), 2u);
   EXPECT_NEAR(area_of(quad), 1, 1e-6);
   // An L of six corners, area 3, starting where a fan of triangles would leave it.
-  write_text(folder / "l.obj", "v 1 2 0\nv 0 2 0\nv 0 0 0\nv 2 0 0\nv 2 1 0\nv 1 1 0\nf 1 2 3 4 5 6\n");
+  test::put_text(folder / "l.obj", "v 1 2 0\nv 0 2 0\nv 0 0 0\nv 2 0 0\nv 2 1 0\nv 1 1 0\nf 1 2 3 4 5 6\n");
   const Mesh polygon = read_model(folder / "l.obj").mesh;
   EXPECT_EQ(polygon.triangles.size(), 4u);
   EXPECT_NEAR(area_of(polygon), 3, 1e-6);
@@ -83,11 +84,12 @@ TEST(MeshFile, PolygonsBecomeTrianglesConcaveOnesToo) {
 
 TEST(MeshFile, DegenerateTrianglesAndUnusedVerticesAreDropped) {
   const TemporaryFolder folder;
-  write_text(folder / "a.ply",
-             "ply\nformat ascii 1.0\nelement vertex 6\nproperty float x\nproperty float y\nproperty float z\n"
-             "element face 4\nproperty list uchar int vertex_indices\nend_header\n"
-             "9 9 9\n0 0 0\n1 0 0\n0 1 0\n2 0 0\n0 0 0\n"
-             "3 1 2 3\n3 1 1 2\n3 1 2 4\n3 1 5 3\n");
+  test::put_text(
+      folder / "a.ply",
+      "ply\nformat ascii 1.0\nelement vertex 6\nproperty float x\nproperty float y\nproperty float z\n"
+      "element face 4\nproperty list uchar int vertex_indices\nend_header\n"
+      "9 9 9\n0 0 0\n1 0 0\n0 1 0\n2 0 0\n0 0 0\n"
+      "3 1 2 3\n3 1 1 2\n3 1 2 4\n3 1 5 3\n");
   const Mesh mesh = read_model(folder / "a.ply").mesh;
   EXPECT_EQ(mesh.positions.size(), 3u);
   ASSERT_EQ(mesh.triangles.size(), 1u);
@@ -96,11 +98,12 @@ TEST(MeshFile, DegenerateTrianglesAndUnusedVerticesAreDropped) {
 
 TEST(MeshFile, APlyWithTwoListsOfVerticesIsRefused) {
   const TemporaryFolder folder;
-  write_text(folder / "a.ply",
-             "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
-             "property float s\nproperty float t\nelement vertex 3\nproperty float x\nproperty float y\n"
-             "property float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n"
-             "0 0 0 0 0\n1 0 0 1 0\n0 1 0 0 1\n0 0 0\n1 0 0\n0 1 0\n3 0 1 5\n");
+  test::put_text(
+      folder / "a.ply",
+      "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+      "property float s\nproperty float t\nelement vertex 3\nproperty float x\nproperty float y\n"
+      "property float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n"
+      "0 0 0 0 0\n1 0 0 1 0\n0 1 0 0 1\n0 0 0\n1 0 0\n0 1 0\n3 0 1 5\n");
   EXPECT_THAT(error_of(folder / "a.ply"), HasSubstr("two lists of vertices"));
 }
 
@@ -127,7 +130,7 @@ TEST(MeshFile, PlyInAllEncodingsWithNormalsAndUvs) {
     bytes += '\3';
     for (const int i : {0, 1, 2}) put(i);
     const auto path = folder / (big ? "big.ply" : "little.ply");
-    write_text(path, bytes);
+    test::put_text(path, bytes);
     const Mesh mesh = read_model(path).mesh;
     ASSERT_EQ(mesh.positions.size(), 3u);
     EXPECT_EQ(mesh.positions[1], Vec3f(1, 0, 0));
@@ -136,7 +139,7 @@ TEST(MeshFile, PlyInAllEncodingsWithNormalsAndUvs) {
 
     for (const std::size_t cut :
          {std::size_t{1}, std::size_t{5}, std::size_t{13}, std::size_t{40}, bytes.size() - 20}) {
-      write_text(folder / "cut.ply", bytes.substr(0, bytes.size() - cut));
+      test::put_text(folder / "cut.ply", bytes.substr(0, bytes.size() - cut));
       EXPECT_THAT(error_of(folder / "cut.ply"), Not(HasSubstr("no error"))) << cut;
     }
   }
@@ -152,14 +155,14 @@ TEST(MeshFile, ATruncatedTextPlyIsAnErrorAtAnyLength) {
       "property list int int vertex_indices\r\nend_header\r\n";
   const std::string body =
       "0 0 0 255\r\n1 0 0 0\r\n1 1 0 0\r\n0 1 0 0\r\n+2 0 0 7\r\n4 0 1 2 3 2 0.5 0.5\r\n6 1 4 2 -1 0 1";
-  write_text(folder / "a.ply", header + body);
+  test::put_text(folder / "a.ply", header + body);
   const Mesh mesh = read_model(folder / "a.ply").mesh;
   EXPECT_EQ(mesh.triangles.size(), 3u);
   EXPECT_EQ(mesh.positions.size(), 5u);
   EXPECT_TRUE(mesh.uvs.empty());
   EXPECT_EQ(mesh.positions[4], Vec3f(2, 0, 0));
   for (std::size_t length = 0; length + 1 < header.size() + body.size(); length += 3) {
-    write_text(folder / "cut.ply", (header + body).substr(0, length));
+    test::put_text(folder / "cut.ply", (header + body).substr(0, length));
     EXPECT_NE(error_of(folder / "cut.ply"), "no error") << length;
   }
 }
@@ -169,7 +172,7 @@ TEST(MeshFile, PlyFacesWindAsTheFileSaysStripsToo) {
   const std::string header =
       "ply\nformat ascii 1.0\nelement vertex 5\nproperty float x\nproperty float y\nproperty float z\n"
       "element tristrips 1\nproperty list int int vertex_indices\nend_header\n";
-  write_text(folder / "a.ply", header + "0 0 0\n1 0 0\n0 1 0\n1 1 0\n0 2 0\n5 0 1 2 3 4\n");
+  test::put_text(folder / "a.ply", header + "0 0 0\n1 0 0\n0 1 0\n1 1 0\n0 2 0\n5 0 1 2 3 4\n");
   const Mesh mesh = read_model(folder / "a.ply").mesh;
   ASSERT_EQ(mesh.triangles.size(), 3u);
   for (const auto& t : mesh.triangles) {
@@ -261,7 +264,7 @@ TEST(MeshFile, ATruncatedGlbIsAnErrorAtAnyLength) {
   write_gltf(folder / "a.glb", triangle);
   const std::string bytes = read_text(folder / "a.glb");
   for (std::size_t length = 0; length < bytes.size(); length += 37) {
-    write_text(folder / "cut.glb", bytes.substr(0, length));
+    test::put_text(folder / "cut.glb", bytes.substr(0, length));
     EXPECT_NE(error_of(folder / "cut.glb"), "no error") << length;
   }
 }
@@ -269,27 +272,27 @@ TEST(MeshFile, ATruncatedGlbIsAnErrorAtAnyLength) {
 TEST(MeshFile, WhatIsNoMeshIsNamed) {
   const TemporaryFolder folder;
   EXPECT_THAT(error_of(folder / "none.obj"), HasSubstr("no such file"));
-  write_text(folder / "a.txt", "hello");
+  test::put_text(folder / "a.txt", "hello");
   EXPECT_THAT(error_of(folder / "a.txt"), HasSubstr(".obj, .ply, .glb, .gltf"));
   for (const std::string name : {"a.obj", "a.ply", "a.glb", "a.gltf"}) {
-    write_text(folder / name, "this is no mesh\n");
+    test::put_text(folder / name, "this is no mesh\n");
     EXPECT_NE(error_of(folder / name), "no error");
-    write_text(folder / name, "");
+    test::put_text(folder / name, "");
     EXPECT_NE(error_of(folder / name), "no error");
   }
-  write_text(folder / "points.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n");
+  test::put_text(folder / "points.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n");
   EXPECT_THAT(error_of(folder / "points.obj"), HasSubstr("no triangles"));
-  write_text(folder / "line.obj", "v 0 0 0\nv 1 0 0\nl 1 2\n");
+  test::put_text(folder / "line.obj", "v 0 0 0\nv 1 0 0\nl 1 2\n");
   EXPECT_THAT(error_of(folder / "line.obj"), HasSubstr("no triangles"));
-  write_text(folder / "flat.obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n");
+  test::put_text(folder / "flat.obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n");
   EXPECT_THAT(error_of(folder / "flat.obj"), HasSubstr("no triangles"));
 }
 
 TEST(MeshFile, IndicesOutsideTheMeshAreErrors) {
   const TemporaryFolder folder;
-  write_text(folder / "a.obj", fmt::format("{}f 1 2 9\n", kSquare));
+  test::put_text(folder / "a.obj", fmt::format("{}f 1 2 9\n", kSquare));
   EXPECT_NE(error_of(folder / "a.obj"), "no error");
-  write_text(
+  test::put_text(
       folder / "a.ply",
       "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
       "element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 7\n");
@@ -328,11 +331,11 @@ std::string sparse_gltf(int replaced, const std::string& nodes, const std::strin
 TEST(MeshFile, SparseElementsOutsideTheirAccessorAreErrors) {
   const TemporaryFolder folder;
   const auto path = folder / "a.gltf";
-  write_text(path, sparse_gltf(1, R"({"mesh": 0})"));
+  test::put_text(path, sparse_gltf(1, R"({"mesh": 0})"));
   const Mesh mesh = read_model(path).mesh;
   ASSERT_EQ(mesh.positions.size(), 3u);
   EXPECT_EQ(mesh.positions[1], Vec3f(5, 0, 0));
-  write_text(path, sparse_gltf(3, R"({"mesh": 0})"));
+  test::put_text(path, sparse_gltf(3, R"({"mesh": 0})"));
   EXPECT_THAT(error_of(path), HasSubstr("replaces element 3, there are 3"));
 }
 
@@ -340,7 +343,7 @@ TEST(MeshFile, NodesThatAreNoTreesAreErrors) {
   const TemporaryFolder folder;
   const auto path = folder / "a.gltf";
   const auto fault = [&](const std::string& nodes, const std::string& roots = "0") {
-    write_text(path, sparse_gltf(1, nodes, roots));
+    test::put_text(path, sparse_gltf(1, nodes, roots));
     return error_of(path);
   };
   std::string doubling;  // a billion triangles
@@ -353,13 +356,13 @@ TEST(MeshFile, NodesThatAreNoTreesAreErrors) {
   for (int i = 0; i < 1500; ++i) chain += fmt::format(R"({{"children": [{}]}}, )", i + 1);
   EXPECT_THAT(fault(chain + R"({"mesh": 0})"), HasSubstr("1000 levels"));
   std::string deep(100000, '[');
-  write_text(path, R"({"asset": {"version": "2.0"}, "extras": )" + deep);
+  test::put_text(path, R"({"asset": {"version": "2.0"}, "extras": )" + deep);
   EXPECT_THAT(error_of(path), HasSubstr("levels deep"));
 }
 
 TEST(MeshFile, PositionsThatAreNotFiniteAreNamed) {
   const TemporaryFolder folder;
-  write_text(folder / "a.obj", "v 0 0 0\nv 1 nan 0\nv 0 1 0\nf 1 2 3\n");
+  test::put_text(folder / "a.obj", "v 0 0 0\nv 1 nan 0\nv 0 1 0\nf 1 2 3\n");
   EXPECT_THAT(error_of(folder / "a.obj"), HasSubstr("not finite"));
   GltfTriangle triangle;
   triangle.first_x = std::numeric_limits<float>::quiet_NaN();
@@ -370,7 +373,7 @@ TEST(MeshFile, PositionsThatAreNotFiniteAreNamed) {
 TEST(MeshFile, ClaimedSizesAreCheckedBeforeMemoryIsAskedFor) {
   const TemporaryFolder folder;
   for (const std::string format : {"ascii", "binary_little_endian"}) {
-    write_text(
+    test::put_text(
         folder / "a.ply",
         fmt::format(
             "ply\nformat {} 1.0\nelement vertex 1099511627776\nproperty float x\nproperty float y\n"

@@ -4,7 +4,10 @@
 #include <array>
 #include <cstdio>
 #include <filesystem>
+#include <fstream>
+#include <span>
 #include <string>
+#include <string_view>
 
 #include <fmt/format.h>
 #include <sys/wait.h>
@@ -38,6 +41,16 @@ class TemporaryFolder {
  private:
   std::filesystem::path path_;
 };
+
+/// Writes a file as quickly as it goes; io::write_bytes waits for the disk, which counts when there are
+/// thousands.
+inline void put_bytes(const std::filesystem::path& path, std::span<const std::byte> bytes) {
+  std::ofstream(path, std::ios::binary)
+      .write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+}
+inline void put_text(const std::filesystem::path& path, std::string_view text) {
+  put_bytes(path, std::as_bytes(std::span(text)));
+}
 
 struct ProgramResult {
   int exit_code = 0;

@@ -1,13 +1,9 @@
 // SPDX-License-Identifier: MIT
-// The program sateen-read-picture FILE: writes a picture of a kind OpenImageIO reads to standard output, see
-// picture_process.h.
+// The program sateen-read-picture FILE KIND: writes a picture of a kind OpenImageIO reads to standard output,
+// see picture_process.h.
 #include <array>
-#include <cctype>
 #include <cstdio>
 #include <exception>
-#include <filesystem>
-#include <fstream>
-#include <string_view>
 
 #include <sys/resource.h>
 #include <unistd.h>
@@ -18,92 +14,11 @@
 namespace sateen::io {
 namespace {
 
-/// OpenImageIO's name of a kind, and how its files begin.
-struct Kind {
-  std::string_view name;
-  std::string_view start;
-  std::size_t at = 0;
-};
-
-using namespace std::string_view_literals;
-constexpr Kind kKinds[] = {
-    {"gif", "GIF87a"},
-    {"gif", "GIF89a"},
-    {"bmp", "BM"},
-    {"psd", "8BPS"},
-    {"dpx", "SDPX"},
-    {"dpx", "XPDS"},
-    {"cineon", "\x80\x2a\x5f\xd7"},
-    {"cineon", "\xd7\x5f\x2a\x80"},
-    {"sgi", "\x01\xda"},
-    {"dds", "DDS "},
-    {"jpeg2000", "\0\0\0\x0cjP"sv},
-    {"jpeg2000", "\xff\x4f\xff\x51"},
-    {"ico", "\0\0\1\0"sv},
-    {"fits", "SIMPLE"},
-    {"heif", "ftyphei", 4},
-    {"heif", "ftypmif1", 4},
-    {"heif", "ftypmsf1", 4},
-    {"heif", "ftypavif", 4},
-    {"iff", "FOR4"},
-    {"softimage", "\x53\x80\xf6\x34"},
-    {"pnm", "P1"},
-    {"pnm", "P2"},
-    {"pnm", "P3"},
-    {"pnm", "P4"},
-    {"pnm", "P5"},
-    {"pnm", "P6"},
-    {"pnm", "Pf"},
-    {"pnm", "PF"},
-    // Those of the library's own kinds that it leaves to OpenImageIO.
-    {"tiff", "II*\0"sv},
-    {"tiff", "MM\0*"sv},
-    {"tiff", "II+\0"sv},
-    {"tiff", "MM\0+"sv},
-    {"webp", "WEBP", 8},
-    {"jpeg", "\xff\xd8\xff"},
-    {"png", "\x89PNG"},
-    {"openexr", "\x76\x2f\x31\x01"},
-};
-
-/// Kinds that only their extension tells.
-struct Ending {
-  std::string_view name;
-  std::string_view extension;
-};
-constexpr Ending kEndings[] = {
-    {"targa", ".tga"}, {"targa", ".tpic"}, {"rla", ".rla"}, {"zfile", ".zfile"}, {"raw", ".cr2"},
-    {"raw", ".cr3"},   {"raw", ".nef"},    {"raw", ".arw"}, {"raw", ".dng"},     {"raw", ".orf"},
-    {"raw", ".rw2"},   {"raw", ".raf"},    {"raw", ".pef"}, {"raw", ".srw"},     {"raw", ".crw"},
-    {"raw", ".nrw"},   {"raw", ".sr2"},    {"raw", ".3fr"}, {"raw", ".erf"},     {"raw", ".iiq"},
-    {"raw", ".mrw"},   {"raw", ".x3f"},    {"raw", ".kdc"}, {"raw", ".mef"},
-};
-
-/// The one decoder to ask; none of the others gets to see the file.
-std::string kind_of(const std::string& path) {
-  std::string first(16, '\0');
-  std::ifstream file(path, std::ios::binary);
-  file.read(first.data(), static_cast<std::streamsize>(first.size()));
-  first.resize(static_cast<std::size_t>(file.gcount()));
-  std::string extension = std::filesystem::path(path).extension().string();
-  std::ranges::transform(extension, extension.begin(),
-                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  for (const Ending& ending : kEndings) {
-    if (ending.extension == extension) return std::string(ending.name);
-  }
-  for (const Kind& kind : kKinds) {
-    if (std::string_view(first).substr(std::min(kind.at, first.size())).starts_with(kind.start))
-      return std::string(kind.name);
-  }
-  fail(path, "cannot be read as a picture: its first bytes are those of no known kind");
-}
-
 void put(const void* bytes, std::size_t count) {
   if (count > 0 && std::fwrite(bytes, 1, count, stdout) != count) _exit(1);  // nobody listens any more
 }
 
-void send(const std::string& path) {
-  const std::string kind = kind_of(path);
+void send(const std::string& path, const std::string& kind) {
   OIIO::ImageSpec wishes;
   wishes["oiio:UnassociatedAlpha"] = 1;
   auto input = OIIO::ImageInput::create(kind);
@@ -156,9 +71,9 @@ void bound() {
 int main(int count, char** arguments) {
   std::string message = "cannot be read";
   try {
-    if (count != 2) return 2;
+    if (count != 3) return 2;
     sateen::io::bound();
-    sateen::io::send(arguments[1]);
+    sateen::io::send(arguments[1], arguments[2]);
     return 0;
   } catch (const sateen::Error& error) {
     // Ours names the file; whoever started this does that too.
