@@ -56,6 +56,21 @@ TEST(Camera, LeavesAMarginFree) {
   }
 }
 
+TEST(Camera, PixelsAreSquare) {
+  const std::vector<Mat3> still{Mat3::Identity()};
+  for (const Camera::Kind kind : {Camera::Kind::perspective, Camera::Kind::orthographic}) {
+    for (const double aspect : {0.4, 2.5}) {
+      const View view = frame_object(test::torus(), {.kind = kind}, still, aspect)[0];
+      const auto shown = [&](const Vec3& p) -> Vec2 {
+        const Vec4 clip = view.clip_from_view * view.view_from_object * p.homogeneous();
+        return clip.head<2>() / clip.w();
+      };
+      const Vec2 middle = shown({0, 0, 0});
+      EXPECT_NEAR((shown({0.1, 0, 0}) - middle).x() * aspect, (shown({0, 0.1, 0}) - middle).y(), 1e-9);
+    }
+  }
+}
+
 TEST(Camera, NearerPointsHaveLessDepth) {
   const std::vector<Mat3> still{Mat3::Identity()};
   for (const Camera::Kind kind :
