@@ -101,6 +101,30 @@ TEST(BuildAmc, ACropFindsTheSphereInALargerPicture) {
   EXPECT_THROW(load_frames(files, options), Error);
 }
 
+TEST(BuildAmc, LightIsNeverNegative) {
+  const test::TemporaryFolder folder;
+  std::vector<std::filesystem::path> files;
+  for (int i = 0; i < 4; ++i) {
+    files.push_back(folder / fmt::format("{}.exr", i));
+    io::write_image(files.back(), Image(8, 8, 3, i == 2 ? 1.0f : -0.5f));
+  }
+  LoadFramesOptions options;
+  options.size = 8;
+  LoadedFrames loaded = load_frames(files, options);
+  EXPECT_EQ(loaded.frames[1].image.at(4, 4, 1), 0);
+  // Between black frames beside a bright one the cubic goes below black.
+  BuildAmcOptions build;
+  build.slices = 64;
+  build.symmetry = 1;
+  const AmcTable table = build_amc(loaded.frames, analyse_symmetry(loaded.frames), build);
+  for (int f = 0; f < table.slices; ++f) EXPECT_GE(table.texel(4, 4, f).minCoeff(), 0) << f;
+  AmcTable eight_bits(1, 1, 1);
+  eight_bits.encoding = AmcEncoding::srgb8;
+  eight_bits.set_texel(0, 0, 0, {2, 0.5f, -1});
+  quantise(eight_bits);
+  EXPECT_LT((eight_bits.texel(0, 0, 0) - Vec3f(1, 0.5f, 0)).norm(), 0.005f);
+}
+
 TEST(BuildAmc, ABadFrameIsNamedOrLeftOut) {
   const test::TemporaryFolder folder;
   const auto files = write_frames(folder, 16, 0, 1.0 / 16);

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "sateen/amc/appearance.h"
+#include "sateen/amc/sheet.h"
 #include "support/analytic_material.h"
 
 namespace sateen::amc {
@@ -79,6 +80,27 @@ TEST(AmcTable, SlicesTurnIntoPicturesWithRowZeroOnTop) {
   AmcTable copy(16, 4, 1);
   for (int f = 0; f < 4; ++f) set_slice_image(copy, f, slice_image(table, f));
   EXPECT_EQ(copy.texels, table.texels);
+}
+
+TEST(AmcTable, TheSheetCutsAlongXThenAlongY) {
+  AmcTable table(16, 8, 1);
+  for (int f = 0; f < 8; ++f) {
+    for (int y = 0; y < 16; ++y) {
+      for (int x = 0; x < 16; ++x)
+        table.set_texel(x, y, f, Vec3f(static_cast<float>(x), static_cast<float>(y), 0) / 16);
+    }
+  }
+  const Image sheet = contact_sheet(table);
+  // Within the last two of six tiles: from left to right only red grows, then only green.
+  const auto growth = [&](double left, double right) {
+    const int middle = sheet.height / 2;
+    return Vec3f(sheet.rgb(static_cast<int>(right * sheet.width), middle) -
+                 sheet.rgb(static_cast<int>(left * sheet.width), middle));
+  };
+  EXPECT_GT(growth(0.70, 0.80).x(), 0.4f);
+  EXPECT_EQ(growth(0.70, 0.80).y(), 0);
+  EXPECT_GT(growth(0.86, 0.96).y(), 0.4f);
+  EXPECT_EQ(growth(0.86, 0.96).x(), 0);
 }
 
 TEST(AmcTable, TheIsotropicAverageIsTheMeanOverAllAngles) {

@@ -86,5 +86,25 @@ TEST(Resample, DenseFramesAreAveragedSoThatNoiseFallsAndNothingAliases) {
   EXPECT_LT(squares, 0.06);
 }
 
+TEST(Resample, ATurnTheOtherWayHasTheSameWeights) {
+  std::mt19937 random(9);
+  std::uniform_real_distribution<double> uniform(0, 1);
+  for (int trial = 0; trial < 100; ++trial) {
+    std::vector<double> angles(static_cast<std::size_t>(4 + trial % 20));
+    for (double& angle : angles) angle = uniform(random);
+    std::ranges::sort(angles);
+    std::vector<double> backwards;
+    for (auto angle = angles.rbegin(); angle != angles.rend(); ++angle) backwards.push_back(1 - *angle);
+    const double angle = uniform(random);
+    const double spacing = 0.3 * uniform(random);
+    std::vector<double> weights(angles.size());
+    for (const auto& [frame, weight] : cyclic_weights(angles, angle, spacing))
+      weights[static_cast<std::size_t>(frame)] += weight;
+    for (const auto& [frame, weight] : cyclic_weights(backwards, -angle, spacing))
+      weights[angles.size() - 1 - static_cast<std::size_t>(frame)] -= weight;
+    for (const double difference : weights) EXPECT_NEAR(difference, 0, 1e-9);
+  }
+}
+
 }  // namespace
 }  // namespace sateen::amc

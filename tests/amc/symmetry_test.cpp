@@ -31,6 +31,22 @@ TEST(Symmetry, RecognisesIsotropy) {
   EXPECT_EQ(report.symmetry, 4);
 }
 
+TEST(Symmetry, TwelveEqualTurnsAreStillNotIsotropic) {
+  // Alike after every turn that is tried.
+  const SymmetryReport report = analyse_symmetry(analytic_frames(16, 96, 12));
+  EXPECT_EQ(report.symmetry, 4);
+  EXPECT_FALSE(report.isotropic);
+}
+
+TEST(Symmetry, ThePeakIsThatOfTheBrightestChannel) {
+  std::vector<AmcFrame> frames(2, {Image(8, 8, 3, 0.1f), 0});
+  frames[1].angle = 0.5;
+  for (AmcFrame& frame : frames) {
+    for (int i = 0; i < 64; ++i) frame.image.at(i % 8, i / 8, 1) = 0.4f;
+  }
+  EXPECT_NEAR(analyse_symmetry(frames).peak, 0.4, 1e-6);
+}
+
 TEST(Symmetry, RmseOfAKnownDifferenceAndIndependenceOfExposure) {
   // Frames alternate between two greys a quarter turn apart: turned by 1/4, every pixel differs by 0.2 of a
   // peak of 0.8.
@@ -38,6 +54,7 @@ TEST(Symmetry, RmseOfAKnownDifferenceAndIndependenceOfExposure) {
   for (int i = 0; i < 4; ++i) frames.push_back({Image(16, 16, 3, i % 2 == 0 ? 0.8f : 0.6f), i / 4.0});
   SymmetryReport report = analyse_symmetry(frames);
   EXPECT_NEAR(report.similarities[3].rmse, 0.25, 1e-6);
+  EXPECT_NEAR(report.similarities[3].psnr, 12.0412, 1e-4);  // a quarter of the amplitude
   EXPECT_NEAR(report.similarities[1].rmse, 0, 1e-6);
   EXPECT_NEAR(report.isotropy.rmse, 0.125, 1e-6);
   for (AmcFrame& frame : frames) {

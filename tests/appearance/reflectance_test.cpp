@@ -111,6 +111,17 @@ TEST(Reflectance, LampsAddUpAndWhatIsHiddenIsMissing) {
   }
 }
 
+// Harmonics of a bright sun ring below zero.
+TEST(Reflectance, NothingReflectsLessThanNoLight) {
+  light::Lighting dark;
+  dark.surroundings = light::even_surroundings({-1, 1, -1});
+  for (const Example& example : lit_examples()) {
+    const Vec3 seen = example.appearance->radiance(seen_from(Vec3::UnitZ(), 0.1), dark);
+    EXPECT_EQ(seen.x(), 0) << example.name;
+    EXPECT_GE(seen.y(), 0) << example.name;
+  }
+}
+
 TEST(Reflectance, OcclusionDarkensTheSurroundingsAndNotLamps) {
   light::Lighting sky;
   sky.surroundings = light::even_surroundings(Vec3::Ones());

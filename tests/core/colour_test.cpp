@@ -18,7 +18,22 @@ TEST(Colour, SrgbRoundTripsIncludingNegativeAndBrightValues) {
     EXPECT_NEAR(srgb_decode(srgb_encode(v)), v, 1e-5f + 1e-5f * std::abs(v));
 }
 
+TEST(Colour, AlphaHasNoCurve) {
+  const Image half(1, 1, 4, 0.5f);
+  EXPECT_EQ(srgb_encoded(half).at(0, 0, 2), srgb_encode(0.5f));
+  EXPECT_EQ(srgb_encoded(half).at(0, 0, 3), 0.5f);
+  EXPECT_EQ(srgb_decoded(half).at(0, 0, 2), srgb_decode(0.5f));
+  EXPECT_EQ(srgb_decoded(half).at(0, 0, 3), 0.5f);
+}
+
+TEST(Colour, LuminanceIsThatOfRec709) {
+  EXPECT_NEAR(luminance({1, 0, 0}), 0.2126, 1e-4);
+  EXPECT_NEAR(luminance({0, 1, 0}), 0.7152, 1e-4);
+  EXPECT_NEAR(luminance({0, 0, 1}), 0.0722, 1e-4);
+}
+
 TEST(Colour, HsvOfKnownColours) {
+  EXPECT_TRUE(rgb_to_hsv({1, 0, 0.5}).isApprox(Vec3(11.0 / 12, 1, 1)));
   EXPECT_TRUE(rgb_to_hsv({1, 0, 0}).isApprox(Vec3(0, 1, 1)));
   EXPECT_TRUE(rgb_to_hsv({0, 0.5, 0}).isApprox(Vec3(1.0 / 3, 1, 0.5)));
   EXPECT_TRUE(rgb_to_hsv({0.25, 0.25, 1}).isApprox(Vec3(2.0 / 3, 0.75, 1)));

@@ -71,6 +71,22 @@ TEST(Direction, FrameAroundIsOrthonormal) {
   }
 }
 
+TEST(Direction, RotationsAreAboutXThenYThenZ) {
+  const auto turned = [](const Vec3& turns, const Vec3& v) {
+    return Vec3(rotation_xyz(turns * 2 * kPi) * v);
+  };
+  EXPECT_LT((turned({0.25, 0, 0}, Vec3::UnitY()) - Vec3::UnitZ()).norm(), 1e-12);
+  EXPECT_LT((turned({0, 0.25, 0}, Vec3::UnitZ()) - Vec3::UnitX()).norm(), 1e-12);
+  EXPECT_LT((turned({0.25, 0.25, 0}, Vec3::UnitY()) - Vec3::UnitX()).norm(), 1e-12);
+  EXPECT_LT((turned({0.25, 0.25, 0.25}, Vec3::UnitY()) - Vec3::UnitY()).norm(), 1e-12);
+}
+
+TEST(Direction, NormalsTurnedAwayAreSeenOnTheRim) {
+  EXPECT_EQ(seen_normal({0.6, 0, 0.8}), Vec3(0.6, 0, 0.8));
+  EXPECT_LT((seen_normal({0.3, -0.4, -std::sqrt(0.75)}) - Vec3(0.6, -0.8, 0)).norm(), 1e-12);
+  EXPECT_EQ(seen_normal({0, 0, -1}).head<2>().norm(), 1);
+}
+
 TEST(Direction, WrapStaysBelowThePeriod) {
   EXPECT_DOUBLE_EQ(wrap(-0.25), 0.75);
   EXPECT_LT(wrap(-1e-18), 1);

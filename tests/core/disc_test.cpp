@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "sateen/core/disc.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -22,6 +23,21 @@ Image sphere(int size, float background) {
     }
   }
   return image;
+}
+
+TEST(Disc, PixelsInsideItAreInsideWithAllTheirCorners) {
+  for (const int size : {7, 16}) {
+    for (int y = 0; y < size; ++y) {
+      for (int x = 0; x < size; ++x) {
+        double farthest = 0;
+        for (const int i : {0, 1}) {
+          for (const int j : {0, 1})
+            farthest = std::max(farthest, std::hypot(x + i - size / 2.0, y + j - size / 2.0));
+        }
+        EXPECT_EQ(inside_disc(x, y, size), farthest <= size / 2.0 - kRimInset) << x << " " << y;
+      }
+    }
+  }
 }
 
 TEST(Disc, FillingLeavesNoTraceOfTheBackgroundAndTheDiscAsItWas) {

@@ -28,15 +28,18 @@ TEST(Curvature, OfASphereIsOneOverItsRadiusAndItsInsideNegative) {
 }
 
 TEST(Curvature, OfACylinderBendsAroundItsAxisOnly) {
-  Mesh mesh = make_grid(96, 16, [](double u, double v) { return on_cylinder(u, v, 2); });
-  for (const Vec3f& p : mesh.positions) mesh.normals.push_back(Vec3f(p.x(), 0, p.z()).normalized());
-  const PrincipalCurvatures principal = compute_curvature(mesh);
-  for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
-    EXPECT_NEAR(mesh.curvature[i], 1 / (2 * 2.0), 0.003);
-    EXPECT_NEAR(principal.k1[i], 0.5, 0.005);
-    EXPECT_NEAR(principal.k2[i], 0, 0.005);
-    EXPECT_NEAR(principal.direction1[i].y(), 0, 0.01);
-    EXPECT_NEAR(std::abs(principal.direction2[i].y()), 1, 0.001);
+  for (const bool inside : {false, true}) {
+    const float sign = inside ? -1 : 1;
+    Mesh mesh = make_grid(96, 16, [&](double u, double v) { return on_cylinder(inside ? 1 - u : u, v, 2); });
+    for (const Vec3f& p : mesh.positions) mesh.normals.push_back(sign * Vec3f(p.x(), 0, p.z()).normalized());
+    const PrincipalCurvatures principal = compute_curvature(mesh);
+    for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+      EXPECT_NEAR(mesh.curvature[i], sign / (2 * 2.0), 0.003);
+      EXPECT_NEAR(principal.k1[i], sign * 0.5, 0.005);
+      EXPECT_NEAR(principal.k2[i], 0, 0.005);
+      EXPECT_NEAR(principal.direction1[i].y(), 0, 0.01);
+      EXPECT_NEAR(std::abs(principal.direction2[i].y()), 1, 0.001);
+    }
   }
 }
 

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "sateen/core/error.h"
+#include "sateen/geometry/tangent_fill.h"
 #include "support/meshes.h"
 
 namespace sateen::geometry {
@@ -180,12 +181,17 @@ TEST(Tangents, HandednessTellsMirroredUvs) {
 
 TEST(Tangents, MirroredHalvesKeepTheirOwnWhereTheyMeet) {
   Mesh mesh = make_grid(10, 4, on_plane);
-  mesh.occlusion.assign(mesh.positions.size(), 0.5f);
+  for (const Vec3f& p : mesh.positions) mesh.occlusion.push_back(p.y());
   for (Vec2f& uv : mesh.uvs) uv.x() = std::abs(uv.x() - 0.5f);
   compute_tangents(mesh);
   EXPECT_EQ(mesh.positions.size(), 55u + 5u);
   EXPECT_EQ(mesh.uvs.size(), mesh.positions.size());
-  EXPECT_EQ(mesh.occlusion.size(), mesh.positions.size());
+  ASSERT_EQ(mesh.occlusion.size(), mesh.positions.size());
+  for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+    EXPECT_LT((mesh.uvs[i] - Vec2f(std::abs(mesh.positions[i].x() - 0.5f), mesh.positions[i].y())).norm(),
+              1e-6f);
+    EXPECT_EQ(mesh.occlusion[i], mesh.positions[i].y());
+  }
   for (const auto& triangle : mesh.triangles) {
     const float side =
         (mesh.positions[triangle[0]] + mesh.positions[triangle[1]] + mesh.positions[triangle[2]]).x() / 3;
@@ -234,6 +240,19 @@ TEST(Tangents, VerticesWithoutInformationTakeTheirNeighbours) {
   two.triangles.push_back({4, 6, 5});
   compute_tangents(two);
   for (const std::size_t i : {4, 5, 6}) EXPECT_LT((tangent(two, i) - Vec3f::UnitX()).norm(), 1e-5f) << i;
+}
+
+TEST(Tangents, VerticesBetweenOppositeOnesTakeOneOfThem) {
+  Mesh mesh;
+  mesh.positions = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {1, 1, 0}};
+  mesh.triangles = {{0, 1, 3}, {1, 2, 3}};
+  mesh.normals.assign(4, Vec3f::UnitZ());
+  mesh.tangents = {{1, 0, 0, -1}, {0, 0, 0, 0}, {-1, 1e-6f, 0, -1}, {0, 0, 0, 0}};
+  fill_tangents(mesh, {1, 0, 1, 0});
+  for (const std::size_t i : {1, 3}) {
+    EXPECT_NEAR(std::abs(mesh.tangents[i].x()), 1, 1e-3) << i;
+    EXPECT_EQ(mesh.tangents[i].w(), -1) << i;
+  }
 }
 
 TEST(Tangents, OfASliverDoNotDisturbItsNeighbours) {

@@ -33,6 +33,23 @@ void expect_light(const fs::path& path, const std::array<float, 3>& light, float
     EXPECT_NEAR(image.at(0, 0, c), light[static_cast<std::size_t>(c)], tolerance) << path << c;
 }
 
+std::vector<unsigned char> saved(cmsHPROFILE profile) {
+  cmsUInt32Number size = 0;
+  cmsSaveProfileToMem(profile, nullptr, &size);
+  std::vector<unsigned char> bytes(size);
+  cmsSaveProfileToMem(profile, bytes.data(), &size);
+  cmsCloseProfile(profile);
+  return bytes;
+}
+
+/// Grey that is the square root of light.
+std::vector<unsigned char> grey_profile() {
+  cmsToneCurve* square = cmsBuildGamma(nullptr, 2);
+  std::vector<unsigned char> bytes = saved(cmsCreateGrayProfile(cmsD50_xyY(), square));
+  cmsFreeToneCurve(square);
+  return bytes;
+}
+
 /// A profile of Display P3's primaries with sRGB's curve.
 std::vector<unsigned char> p3_profile() {
   cmsCIExyY white{0.3127, 0.3290, 1};
@@ -40,12 +57,7 @@ std::vector<unsigned char> p3_profile() {
   cmsFloat64Number curve[] = {2.4, 1 / 1.055, 0.055 / 1.055, 1 / 12.92, 0.04045};
   cmsToneCurve* srgb = cmsBuildParametricToneCurve(nullptr, 4, curve);
   cmsToneCurve* curves[] = {srgb, srgb, srgb};
-  cmsHPROFILE profile = cmsCreateRGBProfile(&white, &primaries, curves);
-  cmsUInt32Number size = 0;
-  cmsSaveProfileToMem(profile, nullptr, &size);
-  std::vector<unsigned char> bytes(size);
-  cmsSaveProfileToMem(profile, bytes.data(), &size);
-  cmsCloseProfile(profile);
+  std::vector<unsigned char> bytes = saved(cmsCreateRGBProfile(&white, &primaries, curves));
   cmsFreeToneCurve(srgb);
   return bytes;
 }
@@ -59,14 +71,16 @@ struct Says {
   bool srgb = false;
 };
 
-/// One pixel of 16 bits.
-void write_png(const fs::path& path, const std::array<double, 3>& samples, const Says& says) {
+/// One pixel of 16 bits, of one to four channels.
+void write_png(const fs::path& path, const std::vector<double>& samples, const Says& says) {
+  constexpr std::array kinds{PNG_COLOR_TYPE_GRAY, PNG_COLOR_TYPE_GRAY_ALPHA, PNG_COLOR_TYPE_RGB,
+                             PNG_COLOR_TYPE_RGB_ALPHA};
   std::FILE* file = std::fopen(path.c_str(), "wb");
   png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, nullptr);
   png_infop info = png_create_info_struct(png);
   png_init_io(png, file);
-  png_set_IHDR(png, info, 1, 1, 16, PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT,
-               PNG_FILTER_TYPE_DEFAULT);
+  png_set_IHDR(png, info, 1, 1, 16, kinds[samples.size() - 1], PNG_INTERLACE_NONE,
+               PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
   if (says.gamma > 0) png_set_gAMA(png, info, says.gamma);
   if (says.p3_chromaticities)
     png_set_cHRM(png, info, 0.3127, 0.3290, 0.680, 0.320, 0.265, 0.690, 0.150, 0.060);
@@ -78,8 +92,8 @@ void write_png(const fs::path& path, const std::array<double, 3>& samples, const
   png_write_info(png, info);
   png_byte name[] = "cICP";
   if (!says.cicp.empty()) png_write_chunk(png, name, says.cicp.data(), says.cicp.size());
-  png_byte row[6];
-  for (std::size_t c = 0; c < 3; ++c) {
+  png_byte row[8];
+  for (std::size_t c = 0; c < samples.size(); ++c) {
     const auto value = static_cast<unsigned>(std::lround(samples[c] * 65535));
     row[2 * c] = static_cast<png_byte>(value >> 8);
     row[2 * c + 1] = static_cast<png_byte>(value & 0xff);
@@ -91,7 +105,7 @@ void write_png(const fs::path& path, const std::array<double, 3>& samples, const
 }
 
 /// Linear Rec. 709 to linear Display P3, as colour handbooks print it.
-std::array<double, 3> in_p3(const std::array<double, 3>& v) {
+std::vector<double> in_p3(const std::vector<double>& v) {
   return {0.822462 * v[0] + 0.177538 * v[1], 0.033194 * v[0] + 0.966806 * v[1],
           0.017083 * v[0] + 0.072397 * v[1] + 0.910520 * v[2]};
 }
@@ -100,13 +114,13 @@ double srgb(double v) {
   return v <= 0.0031308 ? 12.92 * v : 1.055 * std::pow(v, 1 / 2.4) - 0.055;
 }
 
-constexpr std::array<double, 3> kLight{0.6, 0.1, 0.05};
+const std::vector<double> kLight{0.6, 0.1, 0.05};
 constexpr std::array<float, 3> kWanted{0.6f, 0.1f, 0.05f};
 
 TEST(StoredColour, ProfilesGammasAndPrimariesOfPngsAreUsed) {
   const TemporaryFolder folder;
-  const std::array<double, 3> p3 = in_p3(kLight);
-  const std::array<double, 3> encoded{srgb(p3[0]), srgb(p3[1]), srgb(p3[2])};
+  const std::vector<double> p3 = in_p3(kLight);
+  const std::vector<double> encoded{srgb(p3[0]), srgb(p3[1]), srgb(p3[2])};
   write_png(folder / "icc.png", encoded, {.icc = p3_profile()});
   write_png(folder / "cicp.png", encoded, {.cicp = {12, 13, 0, 1}});
   write_png(folder / "chrm.png", encoded, {.p3_chromaticities = true});
@@ -114,10 +128,22 @@ TEST(StoredColour, ProfilesGammasAndPrimariesOfPngsAreUsed) {
   write_png(folder / "power.png", {std::pow(0.6, 1 / 1.8), std::pow(0.1, 1 / 1.8), std::pow(0.05, 1 / 1.8)},
             {.gamma = 1 / 1.8});
   write_png(folder / "srgb.png", {srgb(0.6), srgb(0.1), srgb(0.05)}, {.gamma = 0.45455, .srgb = true});
-  for (const char* name : {"icc.png", "cicp.png", "chrm.png", "linear.png", "power.png", "srgb.png"})
+  write_png(folder / "code.png", kLight, {.cicp = {1, 8, 0, 1}});
+  for (const char* name :
+       {"icc.png", "cicp.png", "chrm.png", "linear.png", "power.png", "srgb.png", "code.png"})
     expect_light(folder / name, kWanted, 0.001f);
   EXPECT_NEAR(read_data(folder / "icc.png").at(0, 0, 0), encoded[0], 1e-4);  // data stay
   EXPECT_NEAR(read_image(folder / "icc.png", {Encoding::linear}).at(0, 0, 0), encoded[0], 1e-4);
+}
+
+TEST(StoredColour, AlphaIsNoColourAndGreyHasProfilesOfItsOwn) {
+  const TemporaryFolder folder;
+  write_png(folder / "alpha.png", {0.5, 0.5, 0.5, 0.25}, {.gamma = 0.5});
+  const Image half = read_image(folder / "alpha.png");
+  EXPECT_NEAR(half.at(0, 0, 0), 0.25 * 0.25, 1e-4);  // the light of a quarter, on a quarter of the pixel
+  EXPECT_NEAR(half.at(0, 0, 3), 0.25, 1e-4);
+  write_png(folder / "grey.png", {0.5}, {.icc = grey_profile()});
+  EXPECT_NEAR(read_image(folder / "grey.png").at(0, 0, 0), 0.25, 1e-3);
 }
 
 TEST(StoredColour, WhatCannotBeUsedIsAWarning) {

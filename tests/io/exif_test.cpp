@@ -3,12 +3,15 @@
 
 #include <algorithm>
 #include <cstring>
+#include <span>
 
 #include <OpenImageIO/imageio.h>
 #include <gtest/gtest.h>
 
 #include "sateen/io/file.h"
 #include "sateen/io/image.h"
+#include "sateen/io/image_rows.h"
+#include "sateen/io/picture8.h"
 #include "support/files.h"
 
 namespace sateen::io {
@@ -83,9 +86,78 @@ TEST(Exif, BrokenBlocksSayWhatTheyCan) {
   read_exif(loop);
 }
 
+TEST(Exif, NumbersThatCannotBeAreNotTaken) {
+  std::vector<std::byte> block = Block(true).bytes;
+  block[19] = std::byte{9};   // an orientation
+  block[81] = std::byte{40};  // 1/250 becomes 2,621,441
+  block[86] = std::byte{0};
+  block[87] = std::byte{1};
+  const ExifNotes notes = read_exif(block);
+  EXPECT_EQ(notes.orientation, 1);
+  EXPECT_EQ(notes.exposure_time, 0);
+  EXPECT_EQ(notes.focal_mm, 35);
+}
+
+/// A WebP with the block in its last chunk, behind one of odd length.
+void write_webp_with(const fs::path& path, const std::vector<std::byte>& block) {
+  write_image(path, Image(37, 23, 3, 0.5f));
+  const std::string plain = read_text(path);
+  std::string chunks;
+  const auto chunk = [&](const std::string& name, const std::string& data) {
+    chunks += name;
+    for (int i = 0; i < 4; ++i) chunks += static_cast<char>(data.size() >> 8 * i & 0xff);
+    chunks += data + (data.size() % 2 == 1 ? std::string(1, '\0') : "");
+  };
+  chunk("VP8X", {0x0c, 0, 0, 0, 36, 0, 0, 22, 0, 0});  // EXIF and XMP, 37 x 23
+  chunks += plain.substr(12);
+  chunk("XMP ", "odd");
+  chunk("EXIF",
+        std::string("Exif\0\0", 6) + std::string(reinterpret_cast<const char*>(block.data()), block.size()));
+  std::string file = "RIFF";
+  for (int i = 0; i < 4; ++i) file += static_cast<char>((chunks.size() + 4) >> 8 * i & 0xff);
+  write_text(path, file + "WEBP" + chunks);
+}
+
+/// A PNG with the block in front of its pixels.
+void write_png_with(const fs::path& path, const std::vector<std::byte>& block) {
+  write_image(path, Image(37, 23, 3, 0.5f));
+  std::vector<std::byte> bytes = read_bytes(path);
+  std::vector<std::byte> chunk;
+  const auto number = [&](std::size_t v) {
+    for (int shift : {24, 16, 8, 0}) chunk.push_back(static_cast<std::byte>(v >> shift & 0xff));
+  };
+  number(block.size());
+  for (const char c : {'e', 'X', 'I', 'f'}) chunk.push_back(static_cast<std::byte>(c));
+  chunk.insert(chunk.end(), block.begin(), block.end());
+  std::uint32_t crc = 0xffffffff;
+  for (std::size_t i = 4; i < chunk.size(); ++i) {
+    crc ^= std::to_integer<std::uint32_t>(chunk[i]);
+    for (int bit = 0; bit < 8; ++bit) crc = (crc & 1) != 0 ? 0xedb88320 ^ crc >> 1 : crc >> 1;
+  }
+  number(~crc);
+  bytes.insert(bytes.begin() + 33, chunk.begin(), chunk.end());  // behind the header
+  write_bytes(path, bytes);
+}
+
+TEST(Exif, IsFoundInPngAndWebp) {
+  const TemporaryFolder folder;
+  for (const bool big_endian : {false, true}) {
+    write_png_with(folder / "a.png", Block(big_endian).bytes);
+    write_webp_with(folder / "a.webp", Block(big_endian).bytes);
+    for (const char* name : {"a.png", "a.webp"}) {
+      SCOPED_TRACE(name);
+      expect_notes(read_exif_of_file(folder / name));
+      EXPECT_EQ(read_image_info(folder / name).width, 23);
+      EXPECT_EQ(read_image(folder / name).height, 37);
+    }
+  }
+}
+
 /// A JPEG with the block in its second segment.
 std::vector<std::byte> jpeg_with(const fs::path& path, const std::vector<std::byte>& block) {
-  write_image(path, Image(37, 23, 3, 0.5f));
+  Image picture(37, 23, 3);
+  for (std::size_t i = 0; i < picture.data.size(); ++i) picture.data[i] = static_cast<float>(i % 111) / 110;
+  write_image(path, picture);
   std::vector<std::byte> bytes = read_bytes(path);
   std::vector<std::byte> segment{std::byte{0xff}, std::byte{0xe1}, std::byte{0},
                                  static_cast<std::byte>(block.size() + 8)};
@@ -105,6 +177,15 @@ TEST(Exif, IsFoundInAJpegAsOpenImageIoFindsIt) {
     expect_notes(read_exif_of_file(path));
     EXPECT_EQ(read_image_info(path).width, 23);
     EXPECT_EQ(read_image(path).height, 37);
+    EXPECT_EQ(read_picture8(path).height, 37);
+    // Row by row, in two pieces.
+    const Image whole = read_data(path);
+    ImageRowReader rows(path);
+    std::vector<float> streamed(whole.data.size());
+    const std::size_t first = static_cast<std::size_t>(rows.width()) * 3 * 20;
+    rows.read(std::span(streamed).first(first));
+    rows.read(std::span(streamed).subspan(first));
+    EXPECT_EQ(streamed, whole.data);
     const auto input = OIIO::ImageInput::open(path.string());
     ASSERT_TRUE(input);
     EXPECT_EQ(input->spec().get_int_attribute("Orientation"), 6);

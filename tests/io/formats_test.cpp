@@ -348,6 +348,9 @@ TEST(Formats, HdrsOfAllWidths) {
     image.data = samples(width, 9, 3);
     write_image(folder / "ours.hdr", image);
     expect_as_openimageio(folder / "ours.hdr");
+    write_image(folder / "even.hdr", Image(width, 2, 3, 0.25f));  // long runs
+    expect_as_openimageio(folder / "even.hdr");
+    EXPECT_EQ(read_data(folder / "even.hdr").at(width - 1, 1, 2), 0.25f);
   }
 }
 

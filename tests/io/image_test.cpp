@@ -10,6 +10,7 @@
 #include "sateen/core/colour.h"
 #include "sateen/core/error.h"
 #include "sateen/io/file.h"
+#include "sateen/io/image_encode.h"
 #include "sateen/io/image_rows.h"
 #include "support/files.h"
 
@@ -137,6 +138,14 @@ TEST(ImageFile, DataAreStoredAsTheyAre) {
   }
 }
 
+TEST(ImageFile, PngsSayWhetherTheyAreSrgb) {
+  const TemporaryFolder folder;
+  write_image(folder / "light.png", sample_image(3));
+  write_data(folder / "data.png", sample_image(3));
+  EXPECT_NE(read_text(folder / "light.png").find("sRGB"), std::string::npos);
+  EXPECT_EQ(read_text(folder / "data.png").find("sRGB"), std::string::npos);
+}
+
 TEST(ImageFile, SixteenBitPngIsDecodedFromSrgb) {
   const TemporaryFolder folder;
   const Image image = sample_image(3);
@@ -155,15 +164,49 @@ TEST(ImageFile, InfoTellsWhatReadingReturns) {
   EXPECT_TRUE(info.floating);
 }
 
+TEST(ImageFile, WhatAFormatCannotHoldIsItsNearest) {
+  Image light(3, 1, 3);
+  light.set_rgb(0, 0, {2, 1e30f, 1});
+  light.set_rgb(1, 0, {-1.9f, 0.5f, 0});
+  light.set_rgb(2, 0, {-1e-3f, 3e38f, 1e38f});
+  for (const char* name : {"a.png", "a.tif", "a.webp"}) {
+    const Image back = round_trip(light, name);
+    EXPECT_LT((back.rgb(0, 0) - Vec3f::Ones()).norm(), 1e-6f) << name;
+    EXPECT_EQ(back.at(1, 0, 0), 0) << name;
+    EXPECT_NEAR(back.at(1, 0, 1), 0.5, 0.005) << name;
+  }
+  const Image hdr = round_trip(light, "a.hdr");
+  EXPECT_EQ(hdr.at(1, 0, 0), 0);
+  EXPECT_EQ(hdr.at(2, 0, 0), 0);
+  EXPECT_GT(hdr.at(2, 0, 1), 1e38f);
+}
+
+TEST(ImageFile, JpegsAreOfTheQualityAskedForAndOfFullColour) {
+  const Image smooth = sample_image(3, 64, 64);
+  EXPECT_LT(encode_jpeg(smooth, 30).size(), encode_jpeg(smooth, 98).size() / 2);
+  Image stripes(32, 32, 3);
+  for (int i = 0; i < 32 * 32; ++i) stripes.at(i % 32, i / 32, i % 2) = 1;  // red and green in turn
+  const TemporaryFolder folder;
+  write_bytes(folder / "a.jpg", encode_jpeg(stripes, 98));
+  const Image back = read_image(folder / "a.jpg");
+  EXPECT_GT(back.at(16, 16, 0), 0.8f);
+  EXPECT_LT(back.at(17, 16, 0), 0.1f);
+}
+
 TEST(ImageFile, LayersHaveTheirNames) {
   const TemporaryFolder folder;
-  const ImageLayer layers[]{{"diffuse", sample_image(3)}, {"specular", Image(37, 23, 1, 0.5f)}};
+  ImageLayer layers[]{{"diffuse", sample_image(3)}, {"specular", Image(37, 23, 1, 0.5f)}};
+  layers[0].image.at(1, 1, 0) = 1e9f;
   write_layers(folder / "a.exr", layers);
   const auto input = OIIO::ImageInput::open((folder / "a.exr").string());
   ASSERT_TRUE(input);
   std::vector<std::string> names = input->spec().channelnames;
   std::ranges::sort(names);
   EXPECT_EQ(names, (std::vector<std::string>{"diffuse.B", "diffuse.G", "diffuse.R", "specular.R"}));
+  const Image back = read_data(folder / "a.exr");  // in the order of a picture
+  EXPECT_LT((back.rgb(20, 7) - layers[0].image.rgb(20, 7)).norm(), 1e-3f);
+  EXPECT_EQ(back.at(20, 7, 3), 0.5f);
+  EXPECT_EQ(back.at(1, 1, 0), 65504);
 }
 
 /// Writes through OpenImageIO alone, for files Sateen itself does not make.
@@ -184,13 +227,22 @@ TEST(ImageFile, OrientationOfTheCameraIsApplied) {
         std::pair{6, std::vector<float>{0.6f, 0, 0.8f, 0.2f, 1, 0.4f}},     // to be turned clockwise
         std::pair{8, std::vector<float>{0.4f, 1, 0.2f, 0.8f, 0, 0.6f}}}) {  // counter-clockwise
     spec["Orientation"] = orientation;
-    write_with(folder / "a.tif", spec, data);
-    const Image image = read_data(folder / "a.tif");
-    EXPECT_EQ(image.width, orientation == 3 ? 3 : 2);
-    EXPECT_EQ(read_image_info(folder / "a.tif").width, image.width);
-    ASSERT_EQ(image.data.size(), expected.size());
-    for (std::size_t i = 0; i < expected.size(); ++i)
-      EXPECT_NEAR(image.data[i], expected[i], 1e-6f) << orientation;
+    for (const char* name : {"a.tif", "a.exr"}) {
+      spec.format = name == std::string("a.tif") ? OIIO::TypeDesc::UINT8 : OIIO::TypeDesc::FLOAT;
+      write_with(folder / name, spec, data);
+      const Image image = read_data(folder / name);
+      EXPECT_EQ(image.width, orientation == 3 ? 3 : 2);
+      EXPECT_EQ(read_image_info(folder / name).width, image.width);
+      ASSERT_EQ(image.data.size(), expected.size());
+      for (std::size_t i = 0; i < expected.size(); ++i)
+        EXPECT_NEAR(image.data[i], expected[i], 1e-6f) << orientation << name;
+      // A region is one of the upright picture.
+      const Image part =
+          read_image(folder / name, {.encoding = Encoding::linear, .region = PixelRect{1, 1, 1, 1}});
+      ASSERT_EQ(part.data.size(), 1u);
+      EXPECT_NEAR(part.data[0], expected[static_cast<std::size_t>(image.width) + 1], 1e-6f)
+          << orientation << name;
+    }
   }
 }
 

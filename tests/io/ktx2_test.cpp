@@ -62,6 +62,20 @@ TEST(Ktx2, MetadataAndNonAsciiNamesComeBack) {
   expect_round_trip(texture, 9, "étoffe 絹.ktx2");
 }
 
+TEST(Ktx2, BinaryValuesAreNoText) {
+  const TemporaryFolder folder;
+  Ktx2 texture = noise_texture(VkFormat::rgba8_srgb, 3, 2);
+  texture.metadata = {{"sateen.raw", "a?b"}, {"sateen.text", "ab"}};
+  write_ktx2(folder / "a.ktx2", texture, 0);
+  auto bytes = read_bytes(folder / "a.ktx2");
+  const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  bytes.at(text.find("a?b") + 1) = std::byte{0};
+  write_bytes(folder / "a.ktx2", bytes);
+  const auto metadata = read_ktx2(folder / "a.ktx2").metadata;
+  EXPECT_FALSE(metadata.contains("sateen.raw"));
+  EXPECT_EQ(metadata.at("sateen.text"), "ab");
+}
+
 TEST(Ktx2, LevelBytesCountWholeBlocks) {
   EXPECT_EQ(ktx2_level_bytes({VkFormat::rgba16_sfloat, 5, 3, 4, 0, 1, {}, {}}, 0), 5 * 3 * 4 * 8);
   EXPECT_EQ(ktx2_level_bytes({VkFormat::rgba16_sfloat, 5, 3, 4, 0, 1, {}, {}}, 1), 2 * 1 * 2 * 8);

@@ -4,6 +4,7 @@
 #include <cstring>
 #include <fstream>
 #include <string>
+#include <tuple>
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -167,6 +168,57 @@ TEST(MeshFile, ATruncatedTextPlyIsAnErrorAtAnyLength) {
   }
 }
 
+// Unsigned means unsigned: places above the half of what the type holds.
+TEST(MeshFile, PlyIndicesMayFillTheirType) {
+  const TemporaryFolder folder;
+  for (const auto& [type, bytes, count] : {std::tuple{"uchar", 1, 256u}, std::tuple{"ushort", 2, 40000u}}) {
+    std::string text = fmt::format(
+        "ply\nformat binary_little_endian 1.0\nelement vertex {}\nproperty float x\nproperty float "
+        "y\nproperty float "
+        "z\nelement face 1\nproperty list uchar {} vertex_indices\nend_header\n",
+        count, type);
+    const auto put = [&](const void* value, std::size_t size) {
+      text.append(static_cast<const char*>(value), size);
+    };
+    for (std::uint32_t i = 0; i < count; ++i) {
+      const float position[3] = {static_cast<float>(i), static_cast<float>(i % 7), 0};
+      put(position, sizeof(position));
+    }
+    text += '\3';
+    for (const std::uint32_t index : {0u, count - 2, count - 1}) put(&index, static_cast<std::size_t>(bytes));
+    write_text(folder / "a.ply", text);
+    const Mesh mesh = read_model(folder / "a.ply").mesh;
+    ASSERT_EQ(mesh.positions.size(), 3u) << type;
+    EXPECT_EQ(mesh.positions[2].x(), static_cast<float>(count - 1)) << type;
+  }
+}
+
+TEST(MeshFile, AttributesStayWithTheirVerticesAndMaterialsWithTheirTriangles) {
+  const TemporaryFolder folder;
+  // The first vertex is used by no triangle.
+  write_text(folder / "a.ply",
+             "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
+             "property float nx\nproperty float ny\nproperty float nz\nproperty float u\nproperty float v\n"
+             "element face 1\nproperty list uchar int vertex_indices\nend_header\n"
+             "9 9 9 1 0 0 9 9\n0 0 0 0 0 1 0 0\n1 0 0 0 0 1 1 0\n0 1 0 0 0 1 0 1\n3 1 2 3\n");
+  const Mesh mesh = read_model(folder / "a.ply").mesh;
+  ASSERT_EQ(mesh.uvs.size(), 3u);
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_EQ(mesh.uvs[i], mesh.positions[i].head<2>());
+    EXPECT_EQ(mesh.normals[i], Vec3f::UnitZ());
+  }
+  // Of red's two triangles the first has no area.
+  write_text(folder / "a.obj",
+             fmt::format("{}v 2 0 0\nusemtl red\nf 1 2 5\nf 1 2 3\nusemtl blue\nf 1 3 4\n", kSquare));
+  EXPECT_EQ(read_model(folder / "a.obj").mesh.material_ids, (std::vector<std::uint32_t>{0, 1}));
+}
+
+TEST(MeshFile, NormalsWithoutDirectionAreThoseOfTheTriangles) {
+  const TemporaryFolder folder;
+  write_text(folder / "a.obj", fmt::format("{}vn 0 0 0\nf 1//1 2//1 3//1\n", kSquare));
+  for (const Vec3f& n : read_model(folder / "a.obj").mesh.normals) EXPECT_EQ(n, Vec3f::UnitZ());
+}
+
 TEST(MeshFile, PlyFacesWindAsTheFileSaysStripsToo) {
   const TemporaryFolder folder;
   const std::string header =
@@ -219,6 +271,24 @@ TEST(MeshFile, GltfNodesMoveScaleAndMirror) {
   EXPECT_GT(cross.z(), 0);
 }
 
+// A shear along the plane leaves the plane's normal; a parent moves what its child has moved.
+TEST(MeshFile, GltfNodesShearAndNest) {
+  const TemporaryFolder folder;
+  GltfTriangle triangle;
+  triangle.node = R"("matrix": [1,0,0,0, 0,1,0,0, 1,0,1,0, 0,0,0,1])";
+  write_gltf(folder / "a.gltf", triangle);
+  EXPECT_LT((read_model(folder / "a.gltf").mesh.normals.at(0) - Vec3f::UnitZ()).norm(), 1e-6f);
+  triangle.node.clear();
+  write_gltf(folder / "a.gltf", triangle);
+  std::string text = read_text(folder / "a.gltf");
+  const std::string single = R"("nodes": [{"mesh": 0}])";
+  ASSERT_NE(text.find(single), std::string::npos);
+  text.replace(text.find(single), single.size(),
+               R"("nodes": [{"children": [1], "scale": [2, 2, 2]}, {"mesh": 0, "translation": [1, 0, 0]}])");
+  write_text(folder / "a.gltf", text);
+  EXPECT_EQ(read_model(folder / "a.gltf").mesh.positions.at(0), Vec3f(2, 0, 0));
+}
+
 TEST(MeshFile, TangentsWithoutDirectionAreMended) {
   const TemporaryFolder folder;
   GltfTriangle triangle;
@@ -227,6 +297,10 @@ TEST(MeshFile, TangentsWithoutDirectionAreMended) {
   triangle.tangent_values[2] = {0, 0, 1, 1};  // along the normal
   write_gltf(folder / "a.glb", triangle);
   for (const Vec4f& t : read_model(folder / "a.glb").mesh.tangents) EXPECT_EQ(t.head<3>(), Vec3f(1, 0, 0));
+  triangle.tangent_values.fill({0.6f, 0, 0.8f, 1});  // not across the normal
+  write_gltf(folder / "a.glb", triangle);
+  for (const Vec4f& t : read_model(folder / "a.glb").mesh.tangents)
+    EXPECT_LT((t.head<3>() - Vec3f::UnitX()).norm(), 1e-6f);
 }
 
 TEST(MeshFile, GltfPicturesWithTheirTransform) {
@@ -292,11 +366,14 @@ TEST(MeshFile, IndicesOutsideTheMeshAreErrors) {
   const TemporaryFolder folder;
   test::put_text(folder / "a.obj", fmt::format("{}f 1 2 9\n", kSquare));
   EXPECT_NE(error_of(folder / "a.obj"), "no error");
-  test::put_text(
-      folder / "a.ply",
-      "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
-      "element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 7\n");
-  EXPECT_NE(error_of(folder / "a.ply"), "no error");
+  for (const char* last : {"7", "3", "-1"}) {
+    test::put_text(folder / "a.ply",
+                   fmt::format("ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+                               "property float z\nelement face 1\nproperty list uchar int vertex_indices\n"
+                               "end_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 {}\n",
+                               last));
+    EXPECT_NE(error_of(folder / "a.ply"), "no error") << last;
+  }
   GltfTriangle triangle;
   triangle.last_index = 9;
   write_gltf(folder / "a.glb", triangle);
@@ -360,7 +437,7 @@ TEST(MeshFile, NodesThatAreNoTreesAreErrors) {
   EXPECT_THAT(error_of(path), HasSubstr("levels deep"));
 }
 
-TEST(MeshFile, PositionsThatAreNotFiniteAreNamed) {
+TEST(MeshFile, PositionsAndTextureCoordinatesThatAreNotFiniteAreNamed) {
   const TemporaryFolder folder;
   test::put_text(folder / "a.obj", "v 0 0 0\nv 1 nan 0\nv 0 1 0\nf 1 2 3\n");
   EXPECT_THAT(error_of(folder / "a.obj"), HasSubstr("not finite"));
@@ -368,6 +445,16 @@ TEST(MeshFile, PositionsThatAreNotFiniteAreNamed) {
   triangle.first_x = std::numeric_limits<float>::quiet_NaN();
   write_gltf(folder / "a.glb", triangle);
   EXPECT_THAT(error_of(folder / "a.glb"), HasSubstr("vertex 0 has a position that is not finite"));
+  for (const bool uv : {false, true}) {
+    write_text(folder / "a.ply",
+               fmt::format("ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+                           "property float z\nproperty float s\nproperty float t\nelement face 1\n"
+                           "property list uchar int vertex_indices\nend_header\n0 0 0 0 0\n1 0 {} 1 {}\n"
+                           "0 1 0 0 1\n3 0 1 2\n",
+                           uv ? "0" : "nan", uv ? "inf" : "0"));
+    EXPECT_THAT(error_of(folder / "a.ply"),
+                HasSubstr(uv ? "vertex 1 has texture coordinates" : "vertex 1 has a position"));
+  }
 }
 
 TEST(MeshFile, ClaimedSizesAreCheckedBeforeMemoryIsAskedFor) {
@@ -385,9 +472,18 @@ TEST(MeshFile, ClaimedSizesAreCheckedBeforeMemoryIsAskedFor) {
   triangle.vertex_count = 1ull << 40;
   write_gltf(folder / "a.glb", triangle);
   EXPECT_THAT(error_of(folder / "a.glb"), HasSubstr("1099511627776 elements"));
-  triangle.vertex_count = 5;
-  write_gltf(folder / "a.glb", triangle);
-  EXPECT_THAT(error_of(folder / "a.glb"), HasSubstr("past its buffer view"));
+  for (const std::uint64_t count : {4, 5}) {
+    triangle.vertex_count = count;
+    write_gltf(folder / "a.glb", triangle);
+    EXPECT_THAT(error_of(folder / "a.glb"), HasSubstr("past its buffer view")) << count;
+  }
+  write_gltf(folder / "a.gltf", {});
+  std::string text = read_text(folder / "a.gltf");
+  const std::string last = "\"byteOffset\": 108, \"byteLength\": 48";
+  ASSERT_NE(text.find(last), std::string::npos);
+  text.replace(text.find(last), last.size(), "\"byteOffset\": 108, \"byteLength\": 52");
+  write_text(folder / "a.gltf", text);
+  EXPECT_THAT(error_of(folder / "a.gltf"), HasSubstr("buffer view that reaches past its buffer"));
 }
 
 }  // namespace

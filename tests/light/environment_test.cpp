@@ -10,6 +10,7 @@
 #include "sateen/core/error.h"
 #include "sateen/io/image.h"
 #include "sateen/light/environment_sampler.h"
+#include "sateen/light/lighting.h"
 #include "sateen/light/prefiltered.h"
 #include "sateen/light/punctual.h"
 #include "sateen/light/spherical_harmonics.h"
@@ -108,6 +109,17 @@ TEST(EnvironmentSampler, SamplesFollowTheirDensityAndEstimateIrradiance) {
   EXPECT_NEAR(irradiance / exact, 1, 0.02);
 }
 
+TEST(EnvironmentSampler, NegativeLightIsNeverDrawn) {
+  Image sky(8, 4, 3, 1);
+  for (int x = 0; x < 8; ++x) sky.set_rgb(x, 1, Vec3f::Constant(-2));
+  const EnvironmentSampler sampler(sky);
+  EXPECT_EQ(sampler.pdf(environment_direction({0.3, 0.4})), 0);
+  // Evenly over the three other rows.
+  const double solid_angle = 4 * kPi * (1 - std::cos(kPi / 4) / 2);
+  EXPECT_NEAR(sampler.pdf(environment_direction({0.3, 0.9})), 1 / solid_angle, 1e-12);
+  EXPECT_NEAR(sampler.sample({0.5, 0.5}).pdf, 1 / solid_angle, 1e-12);
+}
+
 TEST(SphericalHarmonics, ReproduceTheirOwnPolynomialsAndTheirIrradiance) {
   std::mt19937 random(4);
   SphericalHarmonics9 light;
@@ -177,6 +189,29 @@ TEST(Prefiltered, KeepsConstantLightAndBlursWithGgx) {
   }
 }
 
+TEST(Prefiltered, ASunIsFiniteAndTheTextureGoesRound) {
+  const PrefilteredEnvironment map(
+      filled(64, [](const Vec3& d) { return Vec3(d.y() > 0.9 ? 1e6 : 1, 1, 1); }), 64, 16);
+  EXPECT_EQ(map.radiance(Vec3::UnitY(), 0).x(), 65504);
+  EXPECT_EQ(map.texture()->wrap_u, TextureData::Wrap::repeat);
+  EXPECT_EQ(map.texture()->wrap_v, TextureData::Wrap::clamp);
+}
+
+TEST(Surroundings, TurnCounterClockwiseWithTheirHarmonics) {
+  // Red behind, green on the right.
+  const Surroundings sky = make_surroundings(
+      filled(64, [](const Vec3& d) { return Vec3(std::max(0.0, -d.z()), std::max(0.0, d.x()), 0); }));
+  const Surroundings quarter = turned(sky, turn_about_vertical(kPi / 2));
+  for (const double alpha : {0.0, 0.5}) {
+    // What was behind is on the left, what was on the right is behind.
+    EXPECT_GT(quarter.radiance({-1, 0, 0}, alpha).x(), 0.5) << alpha;
+    EXPECT_GT(quarter.radiance({0, 0, -1}, alpha).y(), 0.5) << alpha;
+    EXPECT_LT(quarter.radiance({1, 0, 0}, alpha).maxCoeff(), 0.3) << alpha;
+  }
+  EXPECT_LT((quarter.harmonics.irradiance({-1, 0, 0}) - sky.harmonics.irradiance({0, 0, -1})).norm(), 1e-9);
+  EXPECT_LT((quarter.harmonics.irradiance({0, 0, -1}) - sky.harmonics.irradiance({1, 0, 0})).norm(), 1e-9);
+}
+
 TEST(Prefiltered, TextureRowsRunUpwards) {
   const PrefilteredEnvironment map(filled(64, [](const Vec3& d) { return Vec3(d.y() > 0 ? 1 : 0, 0, 0); }),
                                    64, 16);
@@ -202,6 +237,11 @@ TEST(Punctual, InverseSquareAndCone) {
   light.outer_cone = 0.4;
   EXPECT_LT((arriving_light(light, Vec3::Zero()).irradiance - Vec3(1, 2, 3)).norm(), 1e-12);
   EXPECT_EQ(arriving_light(light, {5, 0, 0}).irradiance.norm(), 0);
+  // Between the cones the cosine goes on from one to the other, and counts squared.
+  const double angle = 0.3;
+  const double share = (std::cos(angle) - std::cos(0.4)) / (std::cos(0.2) - std::cos(0.4));
+  EXPECT_NEAR(arriving_light(light, {2 * std::tan(angle), 0, 0}).irradiance.y(),
+              2 * std::pow(std::cos(angle), 2) * share * share, 1e-12);
 }
 
 }  // namespace

@@ -4,6 +4,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "sateen/core/colour.h"
+#include "sateen/core/direction.h"
 #include "sateen/core/error.h"
 #include "sateen/io/file.h"
 #include "sateen/matcap/decomposed_appearance.h"
@@ -158,6 +160,40 @@ TEST(DecomposedAppearance, IsLoadedByTheRegistryAsTextureAndAsMaterial) {
   } catch (const Error& error) {
     EXPECT_THAT(error.what(), testing::AllOf(HasSubstr("odd.json"), HasSubstr("shine")));
   }
+}
+
+TEST(DecomposedAppearance, TexturesAreThoseOfTheMaterialAndMultiply) {
+  const test::TemporaryFolder folder;
+  write_matcap(folder / "paint.ktx2", carpaint());
+  ASSERT_EQ(carpaint().space, AddUpSpace::display);
+  io::write_image(folder / "half.png", Image(2, 2, 3, srgb_decode(128 / 255.0F)));
+  io::write_image(folder / "quarter.exr", Image(2, 2, 1, 0.25F));
+  io::write_text(folder / "paint.json",
+                 R"({"model": "matcap-decomposition", "matcap": "paint.ktx2", "low_color": "half.png",
+                     "roughness": "quarter.exr", "roughness_scale": 0.1, "occlusion": "quarter.exr"})");
+  appearance::Surface surface;
+  surface.eye_normal = normal_on_disc({0.2, -0.3});
+  surface.uv = {0.3, 0.7};
+  surface.occlusion = 0.5;
+  Modulation modulation;
+  modulation.low_color = Vec3::Constant(128 / 255.0);  // the parts add up as they are displayed
+  modulation.added_variance = 0.1 * 0.25;
+  modulation.occlusion = 0.5 * 0.25;
+  const Vec3 expected = evaluate(unedited(carpaint()), surface.eye_normal, modulation);
+  EXPECT_TRUE(scene::load_appearance(folder / "paint.json")->radiance(surface, {}).isApprox(expected, 3e-3));
+}
+
+TEST(DecomposedAppearance, TurnsInDegreesAndForgetsItsTable) {
+  DecomposedAppearance turned(unedited(carpaint()));
+  turned.settle(true);
+  EXPECT_EQ(turned.shader().entry, "matcap_by_normal");
+  turned.set("turn_y", 90.0);
+  EXPECT_EQ(turned.shader().entry, "matcap_decomposition");
+  appearance::Surface surface;
+  surface.eye_normal = normal_on_disc({0.2, -0.3});
+  EditedMatcap expected = unedited(carpaint());
+  expected.light = rotation_xyz({0, kPi / 2, 0});
+  EXPECT_TRUE(turned.evaluate(surface).isApprox(evaluate(expected, surface.eye_normal), 1e-9));
 }
 
 }  // namespace

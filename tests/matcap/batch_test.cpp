@@ -44,6 +44,8 @@ TEST(Batch, GoesOnWhereItStoppedAndSurvivesBadInputs) {
   other.decompose.space = AddUpSpace::linear;
   EXPECT_FALSE(decompose_files(inputs, output, other, false)[1].reused);
   EXPECT_FALSE(decompose_files(inputs, output, other, true)[1].reused);
+  io::write_image(jade, test::example_matcap("jade", 40));
+  EXPECT_FALSE(decompose_files(inputs, output, other, false)[1].reused);
 
   write_contact_sheet(output, entries);
   const std::string html = io::read_text(output / "index.html");

@@ -11,6 +11,7 @@
 #include "sateen/io/file.h"
 #include "sateen/matcap/bake.h"
 #include "sateen/matcap/decomposition_file.h"
+#include "sateen/matcap/filter_estimate.h"
 #include "sateen/matcap/sphere_blur.h"
 #include "sateen/matcap/warp.h"
 #include "support/matcaps.h"
@@ -88,6 +89,30 @@ TEST(Edits, PaintAppearsWhereItWasPutAndTurnsWithTheLight) {
   EXPECT_LT(test::angle_between(seen, rotation_xyz({radians(10), radians(30), 0}) * put), 0.12);
 }
 
+TEST(Edits, AnglesAreDegreesInFilesAndBoxesAreGivenWhole) {
+  const std::vector<Edit> edits = parse_edits(
+      R"([{"edit": "color", "part": "low", "hue": 90},
+          {"edit": "paint", "part": "high", "at": [0, 0], "shape": "box", "size": [20, 5], "softness": 2, "turn": 30}])",
+      {}, "edits");
+  EXPECT_NEAR(std::get<Recolor>(edits[0]).hue, 0.25, 1e-12);  // turns
+  const Paint& paint = std::get<Paint>(edits[1]);
+  EXPECT_NEAR(paint.turn, radians(30), 1e-12);
+  EXPECT_NEAR(paint.footprint.softness, radians(2), 1e-12);
+  EXPECT_LT((paint.footprint.size - Vec2(radians(10), radians(2.5))).norm(), 1e-12);
+}
+
+TEST(Edits, PaintTurnsCounterClockwise) {
+  // A bar along x, turned.
+  const EditedMatcap bar = edited(
+      R"([{"edit": "paint", "part": "high", "at": [0, 0], "shape": "box", "size": [80, 4], "turn": 40, "intensity": 30}])");
+  const auto added = [&](double angle) {
+    const Vec3 n = normal_on_disc(0.2 * Vec2(std::cos(radians(angle)), std::sin(radians(angle))));
+    return (evaluate_part(bar, Part::high, n) - evaluate_part(unedited(lead()), Part::high, n)).sum();
+  };
+  EXPECT_GT(added(40), 5 * added(-40));
+  EXPECT_GT(added(40), 5 * added(0));
+}
+
 TEST(Edits, FootprintsAreBlurredInClosedForm) {
   const LightPlace place{test::direction_at(0.7, 2), Vec3::UnitY()};
   for (const Footprint& footprint : {Footprint{Footprint::Shape::gaussian, {0.12, 0.12}, 0},
@@ -117,6 +142,23 @@ TEST(Edits, RougherIsBlurredAndBendsLess) {
   EXPECT_THAT(complaint(R"([{"edit": "roughness", "part": "high", "add": -0.5}])"), HasSubstr("variance"));
   const EditedMatcap absolute = edited(R"([{"edit": "roughness", "part": "high", "degrees": 12}])");
   EXPECT_NEAR(std::sqrt(absolute.matcap[Part::high].variance), radians(12), 1e-9);
+  const EditedMatcap flat = edited(R"([{"edit": "roughness", "part": "high", "add": 0.8277}])");
+  EXPECT_EQ(flat.matcap[Part::high].variance, kFlattest);
+}
+
+TEST(Edits, HueGoesRoundAndSaturationEndsAtOne) {
+  MatcapDecomposition orange = lead();
+  orange[Part::low].base_color = {0.8, 0.4, 0.2};
+  const auto recoloured = [&](const std::string& edit) {
+    return apply_edits(orange, parse_edits(edit, {}, "edits")).look(Part::low).base_color;
+  };
+  EXPECT_LT((recoloured(R"([{"edit": "color", "part": "low", "hue": 120}])") - Vec3(0.2, 0.8, 0.4)).norm(),
+            1e-9);
+  EXPECT_LT((recoloured(R"([{"edit": "color", "part": "low", "hue": -120}])") - Vec3(0.4, 0.2, 0.8)).norm(),
+            1e-9);
+  EXPECT_LT(
+      (recoloured(R"([{"edit": "color", "part": "low", "saturation": 50}])") - Vec3(0.8, 0.8 / 3, 0)).norm(),
+      1e-9);
 }
 
 TEST(Edits, ColorIntensityAndSilhouetteActOnTheirPart) {
@@ -125,6 +167,9 @@ TEST(Edits, ColorIntensityAndSilhouetteActOnTheirPart) {
   const EditedMatcap twice = edited(R"([{"edit": "intensity", "part": "high", "factor": 2}])");
   EXPECT_TRUE(evaluate_part(twice, Part::high, n).isApprox(2 * evaluate_part(plain, Part::high, n)));
   EXPECT_EQ(evaluate_part(twice, Part::low, n), evaluate_part(plain, Part::low, n));
+  const EditedMatcap six = edited(
+      R"([{"edit": "intensity", "part": "high", "factor": 2}, {"edit": "intensity", "part": "high", "factor": 3}])");
+  EXPECT_EQ(six.look(Part::high).intensity, 6);
   const EditedMatcap red = edited(R"([{"edit": "color", "part": "low", "saturation": 0, "value": 0.5}])");
   EXPECT_NEAR(red.look(Part::low).base_color.maxCoeff(), 0.5 * plain.look(Part::low).base_color.maxCoeff(),
               1e-9);
@@ -139,17 +184,19 @@ TEST(Edits, ColorIntensityAndSilhouetteActOnTheirPart) {
   const Vec3 at60 = test::direction_at(radians(60), 1);
   EXPECT_TRUE(
       evaluate_part(rim, Part::low, at60).isApprox(expected * evaluate_part(plain, Part::low, at60), 1e-9));
+  const EditedMatcap dark = edited(R"([{"edit": "silhouette", "part": "low", "theta0": 30, "alpha1": -50}])");
+  EXPECT_EQ(evaluate_part(dark, Part::low, at60), Vec3(0, 0, 0));
 }
 
-MatcapDecomposition decomposed_jade(int size) {
-  return decompose(test::example_matcap("jade", size), inscribed_disc(size, size), {}, "jade");
+MatcapDecomposition decomposed_jade(int size, const DecomposeOptions& options = {}) {
+  return decompose(test::example_matcap("jade", size), inscribed_disc(size, size), options, "jade");
 }
 
-/// lead() with the high part of another.
-EditedMatcap with_high_part_of(const MatcapDecomposition& other) {
+/// lead() with the high part of another, after `before`.
+EditedMatcap with_high_part_of(const MatcapDecomposition& other, const std::string& before = "") {
   const test::TemporaryFolder folder;
   write_matcap(folder / "other.ktx2", other);
-  return edited(R"([{"edit": "mix", "part": "high", "from": "other.ktx2"}])", folder.path());
+  return edited("[" + before + R"({"edit": "mix", "part": "high", "from": "other.ktx2"}])", folder.path());
 }
 
 TEST(Edits, MixedMapsOfDifferentSizesGetTheLargerOnesSizeAndKeepTheirLight) {
@@ -179,6 +226,14 @@ TEST(Edits, MixTakesAPartFromAnotherMatCapAndBitmapsShine) {
   EXPECT_TRUE(
       evaluate_part(mixed, Part::high, n).isApprox(evaluate_part(unedited(jade), Part::high, n), 2e-3));
   EXPECT_EQ(evaluate_part(mixed, Part::low, n), evaluate_part(unedited(lead()), Part::low, n));
+  // What was painted on the part goes with it.
+  const EditedMatcap painted = with_high_part_of(
+      jade, R"({"edit": "paint", "part": "high", "at": [0.6, 0.3], "size": 6, "intensity": 30},)");
+  EXPECT_EQ(evaluate_part(painted, Part::high, n), evaluate_part(mixed, Part::high, n));
+  DecomposeOptions linear;
+  linear.space = AddUpSpace::linear;
+  ASSERT_EQ(lead().space, AddUpSpace::display);
+  EXPECT_THROW(with_high_part_of(decomposed_jade(48, linear)), Error);
 
   io::write_image(folder / "lamp.png", Image(20, 10, 3, 1));
   const EditedMatcap lamp = edited(

@@ -57,6 +57,7 @@ TEST(MatcapFile, IsAnArrayOfFourMapsWithRowZeroBelow) {
   const test::TemporaryFolder folder;
   MatcapDecomposition matcap = small();
   matcap[Part::high].map.levels[0].back.set_rgb(3, 63, {0.25F, 0.5F, 0.75F});  // the lowest row
+  matcap[Part::high].map.levels[0].back.set_rgb(4, 63, {1e6F, 0, 0});
   write_matcap(folder / "jade.ktx2", matcap);
   const io::Ktx2 texture = io::read_ktx2(folder / "jade.ktx2");
   EXPECT_EQ(texture.layers, 4U);
@@ -67,6 +68,8 @@ TEST(MatcapFile, IsAnArrayOfFourMapsWithRowZeroBelow) {
   std::memcpy(texel, texture.levels[0].data() + (3 * 64 * 64 + 3) * sizeof texel, sizeof texel);
   EXPECT_EQ(static_cast<float>(texel[1]), 0.5F);
   EXPECT_EQ(static_cast<float>(texel[3]), 1.0F);
+  std::memcpy(texel, texture.levels[0].data() + (3 * 64 * 64 + 4) * sizeof texel, sizeof texel);
+  EXPECT_EQ(static_cast<float>(texel[0]), 65504.0F);
 }
 
 TEST(MatcapFile, WrongFilesAreNamedWithWhatIsWrong) {

@@ -194,18 +194,28 @@ TEST(Environment, ShowsTheLightAMirrorWouldSee) {
   });
   DecomposeOptions options;
   options.space = AddUpSpace::linear;
-  const EditedMatcap matcap = unedited(decompose(picture, inscribed_disc(128, 128), options, "lamp"));
-  const Image environment = bake_environment(matcap, Part::high, 128);
-  Vec3 brightest = Vec3::Zero();
+  EditedMatcap matcap = unedited(decompose(picture, inscribed_disc(128, 128), options, "lamp"));
   float most = -1;
-  for (int y = 0; y < 128; ++y) {
-    for (int x = 0; x < 256; ++x) {
-      if (environment.at(x, y, 0) <= most) continue;
-      most = environment.at(x, y, 0);
-      brightest = direction_of_environment(x, y, 128);
+  const auto brightest = [&] {
+    const Image environment = bake_environment(matcap, Part::high, 128);
+    Vec3 direction = Vec3::Zero();
+    most = -1;
+    for (int y = 0; y < 128; ++y) {
+      for (int x = 0; x < 256; ++x) {
+        if (environment.at(x, y, 0) <= most) continue;
+        most = environment.at(x, y, 0);
+        direction = direction_of_environment(x, y, 128);
+      }
     }
-  }
-  EXPECT_LT(test::angle_between(brightest, warp(lamp, matcap.matcap[Part::high].slope())), 0.05);
+    return direction;
+  };
+  const Vec3 shown = warp(lamp, matcap.matcap[Part::high].slope());
+  EXPECT_LT(test::angle_between(brightest(), shown), 0.05);
+  const float before = most;
+  matcap.light = rotation_xyz({0.3, 0.6, 0});
+  matcap.look(Part::high).intensity = 2;
+  EXPECT_LT(test::angle_between(brightest(), matcap.light * shown), 0.05);
+  EXPECT_NEAR(most / before, 2, 0.1);
   EXPECT_TRUE(direction_of_environment(128, 64, 128).isApprox(-Vec3::UnitZ(), 0.02));
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "sateen/scene/camera.h"
 
+#include <algorithm>
+
 #include <gtest/gtest.h>
 
 #include "sateen/core/direction.h"
@@ -36,6 +38,47 @@ TEST(Camera, FillsThePictureFromSideToSide) {
       EXPECT_NEAR(outline.max()[axis], 1, 1e-9);
       EXPECT_NEAR(outline.center()[1 - axis], 0, 0.1);
     }
+  }
+}
+
+TEST(Camera, LeavesAMarginFree) {
+  const std::vector<Mat3> still{Mat3::Identity()};
+  const Mesh mesh = test::sphere();
+  for (const double margin : {0.04, 0.1}) {
+    const View view = frame_object(mesh, {.kind = Camera::Kind::orthographic, .margin = margin}, still, 1)[0];
+    double reach = 0;
+    for (const Vec3f& p : mesh.positions) {
+      const Vec4 clip = view.clip_from_view * view.view_from_object * p.cast<double>().homogeneous();
+      reach = std::max(reach, clip.head<2>().cwiseAbs().maxCoeff());
+    }
+    EXPECT_NEAR(reach, 1 - 2 * margin, 0.05);
+    EXPECT_NEAR(reach, 1 / (1 + 2 * margin), 1e-9);
+  }
+}
+
+TEST(Camera, PixelsAreSquare) {
+  const std::vector<Mat3> still{Mat3::Identity()};
+  for (const Camera::Kind kind : {Camera::Kind::perspective, Camera::Kind::orthographic}) {
+    for (const double aspect : {0.4, 2.5}) {
+      const View view = frame_object(test::torus(), {.kind = kind}, still, aspect)[0];
+      const auto shown = [&](const Vec3& p) -> Vec2 {
+        const Vec4 clip = view.clip_from_view * view.view_from_object * p.homogeneous();
+        return clip.head<2>() / clip.w();
+      };
+      const Vec2 middle = shown({0, 0, 0});
+      EXPECT_NEAR((shown({0.1, 0, 0}) - middle).x() * aspect, (shown({0, 0.1, 0}) - middle).y(), 1e-9);
+    }
+  }
+}
+
+TEST(Camera, NearerPointsHaveLessDepth) {
+  const std::vector<Mat3> still{Mat3::Identity()};
+  for (const Camera::Kind kind :
+       {Camera::Kind::perspective, Camera::Kind::orthographic, Camera::Kind::view_space}) {
+    const View view = frame_object(test::sphere(), {.kind = kind}, still, 1)[0];
+    const Vec4 near = view.clip_from_view * view.view_from_object * Vec4(0, 0, 0.9, 1);
+    const Vec4 far = view.clip_from_view * view.view_from_object * Vec4(0, 0, -0.9, 1);
+    EXPECT_LT(near.z() / near.w(), far.z() / far.w());
   }
 }
 

@@ -29,7 +29,10 @@ TEST(Registry, APictureIsAMatCapAndJsonNamesItsModel) {
   io::write_image(folder / "clay.exr", Image(8, 8, 3, 0.25f));
   EXPECT_NEAR(load_appearance(folder / "clay.exr")->radiance({}, {}).y(), 0.25, 1e-4);
   io::write_text(folder / "red.json", R"({"model": "constant", "colour": [1, 0.5, 0]})");
-  EXPECT_TRUE(load_appearance(folder / "red.json")->radiance({}, {}).isApprox(Vec3(1, 0.5, 0)));
+  const auto red = load_appearance(folder / "red.json");
+  EXPECT_TRUE(red->radiance({}, {}).isApprox(Vec3(1, 0.5, 0)));
+  EXPECT_THROW(red->set("color", Vec3(-1, 0, 0)), Error);
+  EXPECT_TRUE(red->radiance({}, {}).isApprox(Vec3(1, 0.5, 0)));
 }
 
 TEST(Registry, WrongMaterialsAreNamedWithWhatWouldBeRight) {

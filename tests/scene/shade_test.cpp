@@ -60,6 +60,24 @@ TEST(Shade, OcclusionMultiplies) {
       0.25, 1e-6);
 }
 
+/// Shows the tangent it is given.
+class Tangents final : public appearance::BakedLight {
+ public:
+  Vec3 evaluate(const appearance::Surface& s) const override { return s.tangent; }
+  appearance::ShaderModule shader() const override { return {}; }
+  appearance::ShaderValues values() const override { return {}; }
+};
+
+TEST(Shade, TangentsAreMadeUnitAndAcrossTheNormal) {
+  Image normals(1, 1, 3);
+  normals.set_rgb(0, 0, {0, 0, 2});
+  Image tangents(1, 1, 3);
+  tangents.set_rgb(0, 0, {0, 3, 4});
+  const Image picture =
+      shade(Tangents(), {{SurfaceField::normal, normals}, {SurfaceField::tangent, tangents}});
+  EXPECT_LT((picture.rgb(0, 0) - Vec3f(0, 1, 0)).norm(), 1e-6f);
+}
+
 TEST(Shade, RefusesWhatDoesNotFit) {
   const matcap::MatCap matcap(test::test_matcap());
   const amc::AmcAppearance amc(test::analytic_table(8, 8, 1));
@@ -67,6 +85,9 @@ TEST(Shade, RefusesWhatDoesNotFit) {
   EXPECT_THROW(shade(matcap, {{SurfaceField::normal, Image(4, 4, 1)}}), Error);
   EXPECT_THROW(
       shade(matcap, {{SurfaceField::normal, Image(4, 4, 3)}, {SurfaceField::tangent, Image(4, 5, 3)}}),
+      Error);
+  EXPECT_THROW(
+      shade(matcap, {{SurfaceField::normal, Image(4, 4, 3)}, {SurfaceField::tangent, Image(5, 4, 3)}}),
       Error);
   EXPECT_THROW(shade(amc, {{SurfaceField::normal, Image(4, 4, 3)}}), Error);
 }
