@@ -33,18 +33,18 @@ enum class OcclusionSource {
 };
 
 struct SceneOptions {
-  std::filesystem::path material;                          ///< what every material of the mesh is drawn with
-  std::map<std::string, std::filesystem::path> materials;  ///< others, by the mesh's material names
-  TangentSource tangents;
+  std::filesystem::path material = {};  ///< what every material of the mesh is drawn with
+  std::map<std::string, std::filesystem::path> materials = {};  ///< others, by the mesh's material names
+  TangentSource tangents = {};
   OcclusionSource occlusion = OcclusionSource::file;
-  std::filesystem::path occlusion_map;  ///< a picture by UV, multiplied in as well
-  std::filesystem::path normal_map;     ///< in place of the file's own
-  std::filesystem::path direction_map;
+  std::filesystem::path occlusion_map = {};  ///< a picture by UV, multiplied in as well
+  std::filesystem::path normal_map = {};     ///< in place of the file's own
+  std::filesystem::path direction_map = {};
   float normal_scale = 1;
-  LightingOptions lighting;
+  LightingOptions lighting = {};
   bool file_normal_maps = true;  ///< use those of the file's materials
-  RenderSwitches switches;
-  Progress progress;
+  RenderSwitches switches = {};
+  Progress progress = {};
   std::function<void(const std::string&)> warn = [](const std::string&) {};  ///< told what was left out
 };
 

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What a user's JSON says is taken as written, or refused with file, key and what would be right.
+#include "sateen/io/json.h"
+
 #include <gmock/gmock.h>
 
 #include "sateen/appearance/json_reader.h"
@@ -54,7 +56,7 @@ TEST(Json, BrokenFilesAreNamedWithTheLineAndDeepOnesRefused) {
   const test::TemporaryFolder folder;
   const auto read = [&](const std::string& text) {
     io::write_text(folder / "m.json", text);
-    return complaint([&] { read_json(folder / "m.json"); });
+    return complaint([&] { io::read_json(folder / "m.json"); });
   };
   EXPECT_THAT(read("{\n\"a\": 1,\n\"b\": ?\n}"), HasSubstr("line 3 "));
   EXPECT_THAT(read("{\n\"a\": \"open\n}"), HasSubstr("line 2 "));
