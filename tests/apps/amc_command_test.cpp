@@ -7,9 +7,11 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "sateen/amc/amc_file.h"
 #include "sateen/core/disc.h"
 #include "sateen/io/file.h"
 #include "sateen/io/image.h"
+#include "support/analytic_material.h"
 #include "support/files.h"
 
 namespace sateen {
@@ -100,6 +102,84 @@ TEST(AmcCommand, DrawsTheSheetAndTheIsotropicMatCap) {
   EXPECT_GT(io::read_image(folder / "sheet.png").width, 900);
   EXPECT_EQ(run_program(fmt::format("amc isotropic {0}/a.ktx2 -o {0}/matcap.exr", root)).exit_code, 0);
   EXPECT_EQ(io::read_image(folder / "matcap.exr").width, 64);
+}
+
+/// The files of sixteen frames of a material without symmetry, a sixteenth of a turn apart, each at (left,
+/// top) of a larger picture.
+std::filesystem::path written_frames(const std::filesystem::path& frames, const std::string& extension,
+                                     int left = 0, int top = 0, int larger = 0) {
+  std::filesystem::create_directory(frames);
+  for (int i = 0; i < 16; ++i) {
+    const Image sphere =
+        test::photograph(24, [&](const Vec3& n) { return test::analytic_colour(n, i / 16.0, 1); });
+    Image picture(24 + larger, 24 + larger, 3, 0.5f);
+    for (int y = 0; y < 24; ++y) {
+      for (int x = 0; x < 24; ++x) picture.set_rgb(left + x, top + y, sphere.rgb(x, y));
+    }
+    io::write_image(frames / fmt::format("{:02}{}", i, extension), picture);
+  }
+  return frames;
+}
+
+TEST(AmcCommand, TheFirstAngleAndTheDirectionSayWhereTheTangentPoints) {
+  const test::TemporaryFolder folder;
+  const auto frames = written_frames(folder / "frames", ".exr");
+  const std::string output = (folder / "a.ktx2").string();
+  ASSERT_EQ(
+      run_program(
+          fmt::format("amc build {} -o {} --size 24 --slices 16 --symmetry 1 --first-angle 90 --direction cw",
+                      frames.string(), output))
+          .exit_code,
+      0);
+  const amc::AmcTable table = amc::read_amc(output);
+  EXPECT_EQ(table.encoding, amc::AmcEncoding::half) << "float frames keep their range";
+  for (const int f : {0, 3, 4, 9}) {
+    // Frame i shows a quarter less i sixteenths of a turn.
+    const Image frame = io::read_image(frames / fmt::format("{:02}.exr", (20 - f) % 16));
+    EXPECT_LT((table.texel(15, 13, f) - frame.rgb(15, 24 - 1 - 13)).norm(), 2e-3) << f;
+  }
+}
+
+TEST(AmcCommand, ACropTakesTheSquareOutOfEachFrame) {
+  const test::TemporaryFolder folder;
+  const auto plain = written_frames(folder / "plain", ".png");
+  const auto larger = written_frames(folder / "larger", ".png", 3, 8, 12);
+  const auto built = [&](const std::filesystem::path& frames, const std::string& options) {
+    const std::string output = (folder / "a.ktx2").string();
+    EXPECT_EQ(run_program(
+                  fmt::format("amc build {} -o {} --size 24 --slices 4{}", frames.string(), output, options))
+                  .exit_code,
+              0);
+    return amc::read_amc(output);
+  };
+  const amc::AmcTable expected = built(plain, "");
+  const amc::AmcTable cropped = built(larger, " --crop 3,8,24");
+  for (int i = 4; i < 20; ++i) {
+    for (int c = 0; c < 3; ++c) EXPECT_NEAR(cropped.texel(i, 12, 1)[c], expected.texel(i, 12, 1)[c], 1e-3);
+  }
+}
+
+TEST(AmcCommand, EncodingSymmetryAndThresholdAreThoseAskedFor) {
+  const test::TemporaryFolder folder;
+  const std::string root = folder.path().string();
+  const auto info = [&](const char* name) {
+    return json::parse(run_program(fmt::format("amc info {}/{} --json", root, name)).output);
+  };
+  ASSERT_EQ(
+      run_program(fmt::format("amc build {} -o {}/a.ktx2 --size 16 --slices 8 --encoding half --symmetry 1",
+                              kSilk, root))
+          .exit_code,
+      0);
+  EXPECT_EQ(info("a.ktx2")["encoding"], "half");
+  EXPECT_EQ(info("a.ktx2")["symmetry"], 1);
+  ASSERT_EQ(run_program(fmt::format("amc convert {0}/a.ktx2 -o {0}/b.ktx2 --encoding srgb8", root)).exit_code,
+            0);
+  EXPECT_EQ(info("b.ktx2")["encoding"], "srgb8");
+  // A quarter of a turn leaves silk alike for those who ask for very little.
+  const json report =
+      json::parse(run_program(fmt::format("amc symmetry {} --size 16 --threshold 5 --json", kSilk)).output);
+  EXPECT_EQ(report["threshold"], 5);
+  EXPECT_EQ(report["symmetry"], 4);
 }
 
 TEST(AmcCommand, NoFramesAndOneFrameAreRefused) {

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include <chrono>
+#include <cmath>
 #include <limits>
 
 #include <gmock/gmock.h>
@@ -7,6 +9,8 @@
 
 #include "sateen/io/file.h"
 #include "sateen/matcap/bake.h"
+#include "sateen/matcap/decomposition_file.h"
+#include "sateen/matcap/edits.h"
 #include "support/matcaps.h"
 
 namespace sateen {
@@ -45,25 +49,91 @@ TEST(MatcapCommand, BakesEditsLayersAndEnvironments) {
   const std::string matcap = (folder / "jade.ktx2").string();
   ASSERT_EQ(run_program(fmt::format("matcap decompose {} -o {}", written(folder, "jade"), matcap)).exit_code,
             0);
-  io::write_text(folder / "edits.json", R"([{"edit": "intensity", "part": "high", "factor": 0}])");
+  io::write_text(
+      folder / "edits.json",
+      R"([{"edit": "intensity", "part": "high", "factor": 0.5}, {"edit": "turn", "degrees": [0, 0, 70]}])");
   const auto path = [&](const char* name) { return (folder / name).string(); };
   const auto ok = [&](const std::string& options) {
     const auto result = run_program(fmt::format("matcap bake {} {}", matcap, options));
     EXPECT_EQ(result.exit_code, 0) << result.output;
     EXPECT_EQ(result.output, "");
   };
+  const auto worst = [](const Image& a, const Image& b) {
+    float most = a.data.size() == b.data.size() ? 0.0f : 1e9f;
+    for (std::size_t i = 0; i < std::min(a.data.size(), b.data.size()); ++i)
+      most = std::max(most, std::abs(a.data[i] - b.data[i]) / (0.1f + std::abs(b.data[i])));
+    return most;
+  };
+  // The turn in degrees, after the edits; the sphere fills the picture of the size asked for.
   ok("--edits " + path("edits.json") + " --turn 0,30,0 --size 50 -o " + path("turned.exr"));
-  EXPECT_EQ(io::read_image(folder / "turned.exr").width, 50);
+  const matcap::MatcapDecomposition whole = matcap::read_matcap(matcap);
+  const std::vector<matcap::Edit> edits{matcap::Intensity{matcap::Part::high, 0.5},
+                                        matcap::Turn{{0, 0, radians(70)}}, matcap::Turn{{0, radians(30), 0}}};
+  matcap::EditedMatcap turned = matcap::apply_edits(whole, edits);
+  turned.matcap.width = turned.matcap.height = 50;
+  turned.matcap.disc = matcap::inscribed_disc(50, 50);
+  EXPECT_LT(worst(io::read_image(folder / "turned.exr"), matcap::bake(turned)), 2e-3f);
+  // Layers by name: what the low part alone shows, and the rest.
   ok("--layers -o " + path("layers.exr"));
-  EXPECT_EQ(io::read_image_info(folder / "layers.exr").channels, 6);
-  ok("--environment high --environment-height 32 -o " + path("env.hdr"));
-  EXPECT_EQ(io::read_image(folder / "env.hdr").width, 64);
+  const Image layers = io::read_data(folder / "layers.exr");
+  ASSERT_EQ(io::read_image_info(folder / "layers.exr").channels, 6);
+  const auto expected = matcap::bake_layers(matcap::unedited(whole));
+  EXPECT_LT((layers.rgb(40, 30) - expected[0].rgb(40, 30)).norm(), 2e-3f);
+  ok("--environment high --environment-height 32 -o " + path("high.exr"));
+  ok("--environment low --environment-height 32 -o " + path("low.exr"));
+  EXPECT_LT(worst(io::read_image(folder / "high.exr"),
+                  matcap::bake_environment(matcap::unedited(whole), matcap::Part::high, 32)),
+            2e-3f);
+  EXPECT_LT(worst(io::read_image(folder / "low.exr"),
+                  matcap::bake_environment(matcap::unedited(whole), matcap::Part::low, 32)),
+            2e-3f);
   EXPECT_EQ(run_program(fmt::format("matcap bake {} --layers -o {}", matcap, path("x.png"))).exit_code, 2);
   EXPECT_EQ(
       run_program(fmt::format("matcap bake {} --edits {} -o {}", matcap, path("none.json"), path("x.png")))
           .exit_code,
       1);
   EXPECT_FALSE(std::filesystem::exists(folder / "x.png"));
+}
+
+TEST(MatcapCommand, DecomposeTakesItsOptions) {
+  const test::TemporaryFolder folder;
+  const std::string input = written(folder, "lead");
+  const auto out = folder / "out";
+  const std::string command =
+      fmt::format("matcap decompose {} -o {} --map-size 32 --linear --roi 60,20,6,6 --low-roi 30,40,4,4",
+                  input, out.string());
+  ASSERT_EQ(run_program(command).exit_code, 0);
+  const json info =
+      json::parse(run_program(fmt::format("matcap info {} --json", (out / "lead.ktx2").string())).output);
+  EXPECT_EQ(info["map_size"], 32);
+  EXPECT_EQ(info["space"], "linear");
+  EXPECT_EQ(info["high"]["regions"], json::parse("[[60, 20, 6, 6]]"));
+  EXPECT_EQ(info["low"]["regions"], json::parse("[[30, 40, 4, 4]]"));
+  // What is there is kept, unless it is asked for anew.
+  const auto long_ago = std::filesystem::last_write_time(out / "lead.ktx2") - std::chrono::hours(1);
+  std::filesystem::last_write_time(out / "lead.ktx2", long_ago);
+  ASSERT_EQ(run_program(command).exit_code, 0);
+  EXPECT_EQ(std::filesystem::last_write_time(out / "lead.ktx2"), long_ago);
+  ASSERT_EQ(run_program(command + " --anew").exit_code, 0);
+  EXPECT_NE(std::filesystem::last_write_time(out / "lead.ktx2"), long_ago);
+}
+
+// A single black pixel is dirt, and does not darken what is around it, unless it is asked for.
+TEST(MatcapCommand, SeparateHeedsBlackPixelsWhenAsked) {
+  const test::TemporaryFolder folder;
+  Image grey(48, 48, 3, 0.5f);
+  grey.set_rgb(24, 20, Vec3f::Zero());
+  io::write_image(folder / "grey.exr", grey);
+  const auto low = [&](const std::string& options) {
+    EXPECT_EQ(run_program(fmt::format("matcap separate {} --linear --disc 24,24,24 --low {} --high {}{}",
+                                      (folder / "grey.exr").string(), (folder / "l.exr").string(),
+                                      (folder / "h.exr").string(), options))
+                  .exit_code,
+              0);
+    return io::read_data(folder / "l.exr").at(25, 21, 1);
+  };
+  EXPECT_GT(low(""), 0.4f);
+  EXPECT_LT(low(" --keep-outliers"), 0.2f);
 }
 
 TEST(MatcapCommand, SeparateAddsUpAndEstimateReports) {
@@ -85,6 +155,11 @@ TEST(MatcapCommand, SeparateAddsUpAndEstimateReports) {
   EXPECT_EQ(report["high"]["automatic"], false);
   EXPECT_GT(report["high"]["signature"].size(), 10U);
   EXPECT_THAT(io::read_text(path("s.svg")), HasSubstr("</svg>"));
+  EXPECT_EQ(report["high"]["regions"], json::parse("[[60, 20, 6, 6]]"));
+  // In words, the deviation in degrees.
+  const double variance = report["high"]["variance"];
+  EXPECT_THAT(run_program(fmt::format("matcap estimate {} --roi 60,20,6,6", input)).output,
+              HasSubstr(fmt::format("({:.2f} degrees)", degrees(std::sqrt(variance)))));
   EXPECT_EQ(run_program(fmt::format("matcap estimate {} --roi 60,20,6", input)).exit_code, 2);
   EXPECT_EQ(run_program(fmt::format("matcap estimate {} --roi 0,0,1,1", input)).exit_code, 1);
   const auto all = run_program(fmt::format("matcap estimate {} --json --roi 0,0,96,96", input));
@@ -115,6 +190,9 @@ TEST(MatcapCommand, BadPicturesAreNamedAndTheOthersOfAFolderDone) {
       run_program(fmt::format("matcap decompose {} --disc 20,16,12 -o {}",
                               (folder / "in" / "wide.png").string(), (folder / "w.ktx2").string()));
   EXPECT_EQ(disc.exit_code, 0) << disc.output;
+  const json info =
+      json::parse(run_program(fmt::format("matcap info {} --json", (folder / "w.ktx2").string())).output);
+  EXPECT_EQ(info["disc"], json::parse(R"({"x": 20, "y": 16, "radius": 12})"));
   EXPECT_EQ(run_program(fmt::format("matcap decompose {} --disc 20,16,30 -o {}",
                                     (folder / "in" / "wide.png").string(), (folder / "v.ktx2").string()))
                 .exit_code,

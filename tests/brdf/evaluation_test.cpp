@@ -17,6 +17,7 @@
 #include "sateen/brdf/ggx.h"
 #include "sateen/brdf/plot.h"
 #include "sateen/core/error.h"
+#include "sateen/io/file.h"
 #include "support/files.h"
 
 namespace sateen::brdf {
@@ -193,6 +194,27 @@ TEST(Evaluation, PlotsAreDrawingsWithEveryCurve) {
   const std::string svg = brdf_plot(parse_brdf("ggx", "{}", "test"), {.title = "a < b"});
   EXPECT_THAT(svg, AllOf(testing::StartsWith("<svg"), HasSubstr("a &lt; b"), HasSubstr("light at 60 degrees"),
                          testing::EndsWith("</svg>\n"), testing::Not(HasSubstr("nan"))));
+}
+
+TEST(Evaluation, PlotsHaveTheLightsAndTheCosineAskedFor) {
+  const auto first_curve = [](const std::string& svg) {
+    const std::size_t end = svg.find("#1b6ca8");
+    const std::size_t begin = svg.rfind("<path", end);
+    return svg.substr(begin, end - begin);
+  };
+  EXPECT_EQ(
+      first_curve(brdf_plot([](const DirectionPair&) { return Vec3::Ones().eval(); }, {.with_cosine = true})),
+      first_curve(brdf_plot([](const DirectionPair& d) { return Vec3::Constant(d.view.z()).eval(); }, {})));
+  const test::TemporaryFolder folder;
+  std::ofstream(folder / "p.json") << R"({"alpha_t": 0.4, "alpha_b": 0.2})";
+  ASSERT_EQ(test::run_program("brdf plot ggx --params " + (folder / "p.json").string() +
+                              " --lights 20,-45 --cosine -o " + (folder / "a.svg").string())
+                .exit_code,
+            0);
+  const PlotSettings settings{
+      .title = "ggx, p.json", .light_angles = {radians(20), radians(-45)}, .with_cosine = true};
+  EXPECT_EQ(io::read_text(folder / "a.svg"),
+            brdf_plot(parse_brdf("ggx", R"({"alpha_t": 0.4, "alpha_b": 0.2})", "test"), settings));
 }
 
 TEST(Evaluation, AlbedoOfAPlotIsTheIntegral) {

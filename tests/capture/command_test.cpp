@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The commands from end to end: what a person types, and what lies on the disk afterwards.
+#include <chrono>
 #include <cmath>
 
 #include <gmock/gmock.h>
@@ -60,6 +61,63 @@ TEST(CaptureCommand, ALiveCaptureGoesOnAfterAnInterruptionAndMakesTheTable) {
   for (const char* field : {"file", "angle_degrees", "center", "radius", "exposure"})
     EXPECT_TRUE(report["frames"][0].contains(field)) << field;
   EXPECT_EQ(report["frames"][0]["center"].size(), 2);
+}
+
+TEST(CaptureCommand, OptionsOfTurnTableAndLightAreHeeded) {
+  Simulation s = test::small_simulation(24);
+  s.clockwise = true;
+  const test::TemporaryFolder folder;
+  s.write(folder.path());
+  std::string angles;
+  for (int i = 0; i < 24; ++i) angles += fmt::format("{}\n", -15 * i);
+  io::write_text(folder / "angles.txt", angles);
+  const std::string output = (folder / "cloth.ktx2").string();
+  const auto built = [&](const std::string& options) {
+    const auto result = run_program(
+        fmt::format("capture build {} -o {} --report {} --first-angle 25 --encoding half --symmetry 1 "
+                    "--perspective view {} {}",
+                    folder.path().string(), output, folder.path().string(), lens_and_size(s), options));
+    EXPECT_EQ(result.exit_code, 0) << result.output;
+    return amc::read_amc(output);
+  };
+  const amc::AmcTable table = built("--angles equal --direction cw --response linear");
+  auto report = report_in(folder.path());
+  EXPECT_EQ(report["turn"]["direction"], "clockwise");
+  EXPECT_NEAR(report["frames"][6]["turned_degrees"].get<double>(), 270, 1e-3);
+  EXPECT_NEAR(report["frames"][6]["angle_degrees"].get<double>(), 295, 1e-3);
+  EXPECT_EQ(report["symmetry"]["R"], 1);
+  EXPECT_EQ(table.symmetry, 1);
+  EXPECT_EQ(table.encoding, amc::AmcEncoding::half);
+  EXPECT_EQ(table.provenance.at("table_frame"), "view");
+
+  const amc::AmcTable squared = built("--angles " + (folder / "angles.txt").string() + " --response gamma:2");
+  report = report_in(folder.path());
+  EXPECT_NEAR(report["frames"][6]["turned_degrees"].get<double>(), 270, 1e-3);
+  const double code = table.texel(20, 26, 5).y();
+  EXPECT_NEAR(squared.texel(20, 26, 5).y(), code * code, 0.03);
+}
+
+/// How long `capture live` takes for what is missing of twelve frames when the first `there` have been shot.
+double seconds_of_live(int there, const std::string& options) {
+  const Simulation s = test::small_simulation();
+  const test::TemporaryFolder folder;
+  test::write_video(s, folder / "turn.avi", 0, 12 - there);
+  std::filesystem::create_directory(folder / "shots");
+  for (int i = 0; i < there; ++i)
+    io::write_text(folder / "shots" / fmt::format("frame_{:03}.png", i), "a picture, nobody looks");
+  const auto begin = std::chrono::steady_clock::now();
+  const auto result =
+      run_program(fmt::format("capture live --camera {} --frames 12 --folder {} {}",
+                              (folder / "turn.avi").string(), (folder / "shots").string(), options));
+  EXPECT_EQ(result.exit_code, 0) << result.output;
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+}
+
+TEST(CaptureCommand, AStageIsWaitedForAsLongAsAsked) {
+  SimulatedGrbl grbl;
+  EXPECT_GT(seconds_of_live(11, fmt::format("--stage grbl:{} --settle 1500", grbl.device())), 1.5);
+  // From one frame to the next a twelfth of a turn.
+  EXPECT_GT(seconds_of_live(10, "--stage continuous --turn-seconds 6"), 0.5);
 }
 
 TEST(CaptureCommand, AHandIsToldHowFarToTurn) {

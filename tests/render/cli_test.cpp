@@ -1,10 +1,15 @@
 // SPDX-License-Identifier: MIT
+#include <cmath>
+#include <map>
+#include <vector>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "sateen/amc/amc_file.h"
 #include "sateen/io/file.h"
 #include "sateen/io/image.h"
+#include "sateen/io/video_reader.h"
 #include "support/analytic_material.h"
 #include "support/files.h"
 
@@ -33,6 +38,17 @@ class RenderCli : public testing::Test {
   ProgramResult render(const std::string& mesh, const std::string& rest) const {
     return test::run_program("render " + at(mesh) + " --size 16 --samples 1 " + rest);
   }
+  /// Output variables of the drawn cloth, by name.
+  std::map<std::string, Image> aovs(const std::vector<std::string>& names, const std::string& rest,
+                                    const std::string& mesh = "cloth.obj") const {
+    const ProgramResult result = render(mesh, fmt::format("-m {} --aov {} -o {} {}", at("clay.exr"),
+                                                          fmt::join(names, ","), at("out.exr"), rest));
+    EXPECT_EQ(result.exit_code, 0) << result.output;
+    std::map<std::string, Image> found;
+    for (const std::string& name : names) found[name] = io::read_data(folder / ("out." + name + ".exr"));
+    return found;
+  }
+  Image aov(const std::string& name, const std::string& rest) const { return aovs({name}, rest).at(name); }
   /// Exit code 1, a message with `words`, and no file of the output's name.
   void expect_wrong_input(const ProgramResult& result, const std::string& words) const {
     EXPECT_EQ(result.exit_code, 1) << result.output;
@@ -91,6 +107,12 @@ TEST_F(RenderCli, RenderedVectorsShadeToTheSamePicture) {
   for (const char* name : {"normal", "tangent", "k", "mask", "uv", "occlusion", "position"}) {
     EXPECT_EQ(io::read_data(folder / (std::string("out.") + name + ".exr")).width, 16) << name;
   }
+  // About x, then y, then z, with the thumb along each.
+  const Vec3 about_x(0, -std::sin(radians(20)), std::cos(radians(20)));
+  const Vec3 about_y(about_x.z() * std::sin(radians(30)), about_x.y(), about_x.z() * std::cos(radians(30)));
+  const Vec3 about_z(about_y.x() * std::cos(radians(40)) - about_y.y() * std::sin(radians(40)),
+                     about_y.x() * std::sin(radians(40)) + about_y.y() * std::cos(radians(40)), about_y.z());
+  EXPECT_LT((io::read_data(folder / "out.normal.exr").rgb(8, 8).cast<double>() - about_z).norm(), 1e-4);
   ASSERT_EQ(
       test::run_program("shade --normals " + at("out.normal.exr") + " --tangents " + at("out.tangent.exr") +
                         " --material " + at("silk.ktx2") + " -o " + at("shaded.exr"))
@@ -120,9 +142,162 @@ TEST_F(RenderCli, ATurntableIsNumberedOrAFilm) {
   EXPECT_TRUE(std::filesystem::exists(folder / "turn_0002.png"));
   ASSERT_EQ(render("cloth.obj", material + " -o " + at("turn")).exit_code, 0);
   EXPECT_TRUE(std::filesystem::exists(folder / "turn" / "0002.png"));
-  const ProgramResult film = render("cloth.obj", material + " -o " + at("turn.mp4"));
+  const ProgramResult film =
+      render("cloth.obj", material + " --rotate 0,90,0 --background '#ff8000' --fps 10 -o " + at("turn.mp4"));
   EXPECT_EQ(film.exit_code, 0) << film.output;
-  EXPECT_GT(std::filesystem::file_size(folder / "turn.mp4"), 500u);
+  io::VideoReader reader(folder / "turn.mp4");
+  EXPECT_NEAR(reader.frames_per_second(), 10, 1e-6);
+  io::Picture8 frame;
+  ASSERT_TRUE(reader.next(frame));  // the cloth seen from its edge
+  EXPECT_NEAR(frame.rgb[0], 255, 12);
+  EXPECT_NEAR(frame.rgb[1], 128, 12);
+  EXPECT_NEAR(frame.rgb[2], 0, 12);
+}
+
+// --rotate says how the object stands on the table; the table turns counter-clockwise, seen from above, and
+// its last picture is not its first again.
+TEST_F(RenderCli, ATurntableTurnsTheObjectAsItStands) {
+  ASSERT_EQ(render("cloth.obj", "-m " + at("clay.exr") +
+                                    " --camera orthographic --rotate 20,0,0 --turntable 8 --aov normal -o " +
+                                    at("turn.exr"))
+                .exit_code,
+            0);
+  const Vec3 expected(std::cos(radians(20)) * std::sin(radians(45)), -std::sin(radians(20)),
+                      std::cos(radians(20)) * std::cos(radians(45)));
+  EXPECT_LT((io::read_data(folder / "turn_0001.normal.exr").rgb(8, 8).cast<double>() - expected).norm(),
+            1e-4);
+}
+
+TEST_F(RenderCli, TheCameraIsWhereTheOptionsSay) {
+  const auto distance = [&](int fov) { return -aov("position", fmt::format("--fov {}", fov)).at(8, 8, 2); };
+  EXPECT_NEAR(distance(20) / distance(60), std::tan(radians(30)) / std::tan(radians(10)), 1e-3);
+  // The plane of coordinates itself, without a margin.
+  const Image position = aov("position", "--camera view-space");
+  EXPECT_NEAR(position.at(0, 3, 0), -15.0 / 16, 1e-5);
+  EXPECT_NEAR(position.at(0, 3, 1), 9.0 / 16, 1e-5);
+}
+
+TEST_F(RenderCli, SamplesSoftenEdges) {
+  const auto partly_covered = [&](int samples) {
+    EXPECT_EQ(test::run_program(fmt::format("render {} --size 16 --samples {} --rotate 0,0,30 -m {} -o {}",
+                                            at("cloth.obj"), samples, at("clay.exr"), at("out.exr")))
+                  .exit_code,
+              0);
+    const Image picture = io::read_image(folder / "out.exr");
+    int count = 0;
+    for (int i = 0; i < 256; ++i) {
+      const float alpha = picture.at(i % 16, i / 16, 3);
+      count += alpha > 0.1f && alpha < 0.9f ? 1 : 0;
+    }
+    return count;
+  };
+  EXPECT_EQ(partly_covered(1), 0);
+  EXPECT_GT(partly_covered(4), 10);
+}
+
+// A MatCap whose red is n_x: what each way makes of a normal that points to the viewer's plane.
+TEST_F(RenderCli, PerspectiveIsCorrectedAsAsked) {
+  Image ramp(64, 64, 3);
+  for (int i = 0; i < 64 * 64; ++i)
+    ramp.set_rgb(i % 64, i / 64, Vec3f::Constant((static_cast<float>(i % 64) + 0.5f) / 64));
+  io::write_image(folder / "ramp.exr", ramp);
+  const auto n_x = [&](const std::string& how) {
+    EXPECT_EQ(
+        render("cloth.obj", "--fov 90 -m " + at("ramp.exr") + " --aov position -o " + at("out.exr") + how)
+            .exit_code,
+        0);
+    return 2.0 * io::read_image(folder / "out.exr").at(3, 3, 0) - 1;
+  };
+  const double rotated = n_x("");
+  const Vec3 p = io::read_data(folder / "out.position.exr").rgb(3, 3).cast<double>();
+  EXPECT_NEAR(rotated, p.x() / p.norm(), 3e-3);
+  EXPECT_NEAR(n_x(" --perspective equation4"), p.x() / std::hypot(p.x(), p.z()), 3e-3);
+  EXPECT_NEAR(n_x(" --perspective none"), 0, 3e-3);
+}
+
+TEST_F(RenderCli, MapsAreLaidOnAsAsked) {
+  const auto plain = [&](const char* name, const Vec3f& value) {
+    Image picture(4, 4, 3);
+    for (int i = 0; i < 16; ++i) picture.set_rgb(i % 4, i / 4, value);
+    io::write_data(folder / name, picture);
+    return at(name);
+  };
+  const auto seen = aovs({"normal", "tangent", "occlusion"},
+                         "--camera view-space --normal-map " + plain("n.exr", {0.8f, 0.5f, 0.9f}) +
+                             " --normal-scale 0.5 --direction-map " + plain("d.exr", {0.5f, 1, 0}) +
+                             " --occlusion " + plain("o.exr", {0.25f, 1, 1}));
+  EXPECT_LT((seen.at("normal").rgb(8, 8) - Vec3f(0.3f, 0, 0.8f).normalized()).norm(), 2e-3);
+  EXPECT_LT((seen.at("tangent").rgb(8, 8) - Vec3f::UnitY()).norm(), 2e-3);
+  EXPECT_NEAR(seen.at("occlusion").at(8, 8, 0), 0.25, 1e-3);
+}
+
+TEST_F(RenderCli, TangentsFollowTheFieldAndTheAngle) {
+  const auto tangent = [&](const std::string& options) -> Vec3 {
+    return aov("tangent", "--camera view-space --per-fragment " + options).rgb(12, 3).cast<double>();
+  };
+  const Vec3 place(9.0 / 16, 9.0 / 16, 0);  // of that pixel; the field is interpolated from the corners
+  const Vec3 around = Vec3(-place.y(), place.x(), 0).normalized();
+  EXPECT_LT((tangent("--tangents around:z") - around).norm(), 0.05);
+  EXPECT_LT((tangent("--tangents around:z --tangent-angle 90") + place.normalized()).norm(), 0.05);
+  EXPECT_LT((tangent("--tangents along:0,2,0") - Vec3::UnitY()).norm(), 1e-4);
+}
+
+TEST_F(RenderCli, AnglesAreInterpolatedAsAsked) {
+  const auto worst = [&](const std::string& options) {
+    const auto seen = aovs({"k", "tangent", "mask"},
+                           "--camera view-space --tangents around:z --tangent-angle 20 " + options);
+    double most = 0;
+    for (int i = 0; i < 256; ++i) {
+      const Vec3f t = seen.at("tangent").rgb(i % 16, i / 16);
+      const double k = std::atan2(t.y(), t.x()) / (2 * kPi);
+      most = std::max(most, std::abs(std::remainder(seen.at("k").at(i % 16, i / 16, 0) - k, 1)));
+    }
+    return most;
+  };
+  EXPECT_LT(worst("--per-fragment"), 1e-4);
+  const double fixed = worst("");
+  EXPECT_GT(fixed, 1e-3);
+  EXPECT_LT(fixed, 0.25);  // between corners that point opposite ways
+  EXPECT_GT(worst("--no-cyclic-fix"), 0.3);
+}
+
+TEST_F(RenderCli, NormalsAreMadeUnitUnlessAskedNotTo) {
+  io::write_text(folder / "bent.obj",
+                 "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nvn -0.6 0 0.8\nvn 0.6 0 0.8\n"
+                 "f 1//1 2//2 3//2\nf 1//1 3//2 4//1\n");
+  const auto length = [&](const std::string& options) {
+    return aovs({"normal"}, "--camera view-space " + options, "bent.obj").at("normal").rgb(8, 8).norm();
+  };
+  EXPECT_NEAR(length(""), 1, 1e-4);
+  EXPECT_LT(length("--no-renormalise"), 0.85);
+}
+
+// Light from the left; turned counter-clockwise, seen from above, it comes from the viewer.
+TEST_F(RenderCli, AnEnvironmentTurnsCounterClockwise) {
+  Image left(64, 32, 3);
+  for (int y = 0; y < 32; ++y) {
+    for (int x = 12; x < 20; ++x) left.set_rgb(x, y, Vec3f::Ones());  // the middle is behind the object
+  }
+  io::write_image(folder / "left.exr", left);
+  io::write_text(folder / "white.json", R"({"model": "layered", "base": {"color": 1}})");
+  Image normal(1, 1, 3);
+  normal.set_rgb(0, 0, {0, 0, 1});
+  io::write_data(folder / "normal.exr", normal);
+  const std::string lit = " -m " + at("white.json") + " --env " + at("left.exr") + " -o " + at("out.exr");
+  const auto drawn = [&](int angle) {
+    EXPECT_EQ(render("cloth.obj", fmt::format("--camera view-space --env-rotate {}{}", angle, lit)).exit_code,
+              0);
+    return io::read_image(folder / "out.exr").at(8, 8, 1);
+  };
+  const auto shaded = [&](int angle) {
+    EXPECT_EQ(
+        test::run_program(fmt::format("shade --normals {} --env-rotate {}{}", at("normal.exr"), angle, lit))
+            .exit_code,
+        0);
+    return io::read_image(folder / "out.exr").at(0, 0, 1);
+  };
+  EXPECT_GT(drawn(60), 3 * drawn(-60) + 0.05);
+  EXPECT_GT(shaded(60), 3 * shaded(-60) + 0.05);
 }
 
 TEST_F(RenderCli, BackgroundsAndOddSizes) {
@@ -165,15 +340,18 @@ TEST_F(RenderCli, ExposureAndViewChangePicturesAndNoSceneLight) {
   };
   EXPECT_NEAR(stored(""), 137, 0.1);  // sRGB of 0.25
   EXPECT_NEAR(stored("--view srgb --exposure 0"), 137, 0.1);
-  EXPECT_NEAR(stored("--exposure 1"), 188, 0.1);     // of 0.5
+  EXPECT_NEAR(stored("--exposure 1"), 188, 0.1);  // of 0.5
+  EXPECT_NEAR(stored("--exposure +1"), 188, 0.1);
   EXPECT_NEAR(stored("--exposure -1"), 99, 0.1);     // of 0.125
   EXPECT_NEAR(stored("--view none"), 64, 0.1);       // 0.25 itself
   EXPECT_NEAR(stored("--view neutral"), 126, 0.1);   // of 0.25 - 0.04
   EXPECT_NEAR(stored("--view agx"), 143, 0.1);       // of three.js' 0.27483
   EXPECT_NEAR(stored("--exposure auto"), 118, 0.1);  // of 0.18
-  const ProgramResult exr = render("cloth.obj", "--exposure 1 " + middle + at("out.exr"));
-  EXPECT_THAT(exr.output, HasSubstr("--exposure"));
-  EXPECT_NEAR(io::read_image(folder / "out.exr").at(8, 8, 1), 0.25, 1e-3);
+  for (const char* name : {"out.exr", "out.hdr"}) {
+    const ProgramResult light = render("cloth.obj", "--exposure 1 " + middle + at(name));
+    EXPECT_THAT(light.output, HasSubstr("--exposure"));
+    EXPECT_NEAR(io::read_image(folder / name).at(8, 8, 1), 0.25, 1e-3);
+  }
 }
 
 // A lamp of any strength gives the same picture; baked light is what it is.
@@ -239,7 +417,7 @@ TEST_F(RenderCli, WrongInputIsNamed) {
 TEST_F(RenderCli, AWrongCommandLineExitsWithTwo) {
   const std::string rest = "-m " + at("clay.exr") + " -o " + at("out.png");
   for (const std::string option :
-       {"--rotate 1,2", "--rotate a,b,c", "--background '#12'", "--tangents sideways",
+       {"--rotate 1,2", "--rotate a,b,c", "--rotate inf,0,0", "--background '#12'", "--tangents sideways",
         "--tangents around:0,0,0", "--aov beauty", "--camera fisheye", "--samples 0",
         "--no-cyclic-fix --per-fragment", "--turntable -1", "--exposure bright", "--exposure 1,5",
         "--exposure 99", "--exposure nan", "--view filmic"}) {
