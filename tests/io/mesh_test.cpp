@@ -368,10 +368,10 @@ TEST(MeshFile, IndicesOutsideTheMeshAreErrors) {
   EXPECT_NE(error_of(folder / "a.obj"), "no error");
   for (const char* last : {"7", "3", "-1"}) {
     test::put_text(folder / "a.ply",
-               fmt::format("ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
-                           "property float z\nelement face 1\nproperty list uchar int vertex_indices\n"
-                           "end_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 {}\n",
-                           last));
+                   fmt::format("ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+                               "property float z\nelement face 1\nproperty list uchar int vertex_indices\n"
+                               "end_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 {}\n",
+                               last));
     EXPECT_THAT(error_of(folder / "a.ply"), HasSubstr(fmt::format("face 0 uses vertex {}", last)));
   }
   GltfTriangle triangle;
