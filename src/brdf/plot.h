@@ -9,7 +9,7 @@
 namespace sateen::brdf {
 
 struct PlotSettings {
-  std::string title;
+  std::string title = {};
   std::vector<double> light_angles = {0, radians(30), radians(60)};  ///< from the normal, in (-pi/2, pi/2)
   bool with_cosine =
       false;  ///< lobes times v.n, the radiance a lamp causes per area seen, in place of the BRDF
