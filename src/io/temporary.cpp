@@ -180,7 +180,14 @@ void remove_temporaries_on_signals() {
     UnderWay& all = under_way();
     const std::lock_guard lock(all.mutex);  // until the end: nothing new is begun
     std::error_code code;
-    for (const fs::path& path : all.paths) fs::remove_all(path, code);
+    for (int pass = 0; pass < 2; ++pass) {
+      for (const fs::path& path : all.paths) {
+        // By another name first: other threads are still writing into it.
+        const fs::path gone = path.string() + "-gone";
+        fs::rename(path, gone, code);
+        fs::remove_all(gone, code);
+      }
+    }
     std::signal(number, SIG_DFL);
     pthread_sigmask(SIG_UNBLOCK, &ending, nullptr);
     kill(getpid(), number);
