@@ -22,7 +22,7 @@ using test::SimulatedGrbl;
 
 GrblOptions quick() {
   GrblOptions options;
-  options.answer_timeout = milliseconds(600);
+  options.answer_timeout = milliseconds(2000);
   options.move_timeout = milliseconds(900);
   options.settle = milliseconds(0);
   return options;
