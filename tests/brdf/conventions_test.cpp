@@ -119,6 +119,8 @@ TEST(Conventions, SheenSurvivesTheRoundTrip) {
     }
   }
   EXPECT_EQ(from_sheen({}).density, 0);
+  // No sheen is brighter than a white one.
+  EXPECT_EQ(from_sheen({Vec3(4, 2, 1), 0.5}).density, from_sheen({Vec3(1, 0.5, 0.25), 0.5}).density);
   EXPECT_EQ(to_sheen(from_sheen({})).colour.norm(), 0);
 }
 

@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: MIT
+#include <array>
 #include <cstring>
 #include <memory>
 
 #include <epoxy/gl.h>
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "sateen/core/colour.h"
 #include "sateen/core/error.h"
+#include "sateen/gpu/cache.h"
 #include "sateen/gpu/context.h"
 #include "sateen/gpu/framebuffer.h"
 #include "sateen/gpu/program.h"
@@ -152,6 +155,35 @@ TEST(Texture, VolumesRepeatAlongW) {
   EXPECT_NEAR(image.at(0, 0, 1), 1, 2e-2);
 }
 
+TEST(Texture, CubesHaveSixFaces) {
+  const Context context;
+  const TextureData data = float_texture(TextureData::Shape::cube, 1, 1, 6, {1, 2, 3, 4, 5, 6});
+  const std::array<const char*, 6> axes = {"1,0,0", "-1,0,0", "0,1,0", "0,-1,0", "0,0,1", "0,0,-1"};
+  for (std::size_t i = 0; i < 6; ++i) {
+    const std::string fetch = fmt::format(
+        "out vec4 c; uniform samplerCube map; void main() {{ c = texture(map, vec3({})); }}", axes[i]);
+    EXPECT_NEAR(draw(fetch, &data).at(4, 4, 0), static_cast<double>(i) + 1, 1e-5) << axes[i];
+  }
+}
+
+TEST(Texture, RowsAreReadWhateverAlignmentTheWindowLeft) {
+  const Context context;
+  TextureData data;
+  data.format = TextureData::Format::rgba8;
+  data.width = 1;
+  data.height = 2;
+  data.levels = {std::vector<std::byte>(8, std::byte{0})};
+  data.levels[0][4] = std::byte{255};
+  glPixelStorei(GL_UNPACK_ALIGNMENT, 8);
+  const Image image = draw(
+      "out vec4 c; uniform sampler2D map; uniform vec2 size;"
+      "void main() { c = texture(map, gl_FragCoord.xy / size); }",
+      &data);
+  glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
+  EXPECT_NEAR(image.at(4, 0, 0), 1, 1e-5);  // the upper texel
+  EXPECT_NEAR(image.at(4, 7, 0), 0, 1e-5);
+}
+
 TEST(Texture, SrgbIsDecodedOnFetch) {
   const Context context;
   TextureData data;
@@ -170,6 +202,28 @@ TEST(Texture, RefusesWrongSizes) {
   EXPECT_THROW(Texture{data}, Error);
   data.width = 1 << 24;
   EXPECT_THROW(Texture{data}, Error);
+}
+
+TEST(Cache, DataAtAnAddressThatComesBackAreOtherData) {
+  const Context context;
+  TextureCache cache;
+  const TextureData storage = float_texture(TextureData::Shape::image_2d, 1, 1, 1, {0.5f});
+  const auto held = [&] { return std::shared_ptr<const TextureData>(&storage, [](const TextureData*) {}); };
+  auto data = held();
+  const auto first = cache.of(data);
+  EXPECT_EQ(cache.of(data), first);
+  data = nullptr;
+  data = held();
+  EXPECT_NE(cache.of(data), first);
+}
+
+TEST(Cache, ProgramsThatNumberTheirAttributesOtherwiseAreTwo) {
+  const auto numbered = [](std::vector<std::string> attributes) {
+    return ProgramText{.vertex = {}, .fragment = {}, .defines = {}, .attributes = std::move(attributes)}
+        .key();
+  };
+  EXPECT_EQ(numbered({"position", "uv"}), numbered({"position", "uv"}));
+  EXPECT_NE(numbered({"position", "uv"}), numbered({"uv", "position"}));
 }
 
 TEST(Timer, CountsForward) {

@@ -2,7 +2,9 @@
 #include <gtest/gtest.h>
 
 #include "sateen/core/colour.h"
+#include "sateen/core/direction.h"
 #include "sateen/core/error.h"
+#include "sateen/light/environment.h"
 #include "sateen/matcap/bake.h"
 #include "sateen/matcap/decomposition_file.h"
 #include "sateen/matcap/edits.h"
@@ -152,7 +154,19 @@ TEST(RoundTrip, TheEdgeOfADrawnSphereComesBackButDoesNotTurn) {
       }
     }
     EXPECT_LT(worst, 0.06F) << angles;  // the edge is darker by up to 0.7
+    // Nor do they stay where they were under light that is turned without an edit.
+    EditedMatcap live = unedited(with);
+    live.light = rotation_xyz(angles);
+    EXPECT_EQ(bake(live).data, turned.data);
   }
+}
+
+TEST(RoundTrip, BeyondTheRimIsWhatWasSeenWithinIt) {
+  const EditedMatcap matcap =
+      unedited(decompose(test::example_matcap("jade", 64), inscribed_disc(64, 64), {}, "jade"));
+  const double rim = (1 - 0.5 / 32) * std::sqrt(0.5);
+  const Vec3f expected = evaluate(matcap, normal_on_disc({rim, rim})).cast<float>();
+  EXPECT_LT((bake(matcap).rgb(63, 0) - expected).norm(), 1e-6F);
 }
 
 TEST(RoundTrip, BlackPicturesStayBlack) {
@@ -216,7 +230,15 @@ TEST(Environment, ShowsTheLightAMirrorWouldSee) {
   matcap.look(Part::high).intensity = 2;
   EXPECT_LT(test::angle_between(brightest(), matcap.light * shown), 0.05);
   EXPECT_NEAR(most / before, 2, 0.1);
-  EXPECT_TRUE(direction_of_environment(128, 64, 128).isApprox(-Vec3::UnitZ(), 0.02));
+  // As environment maps of lit scenes are looked up.
+  for (const int x : {0, 100, 128, 200}) {
+    for (const int y : {3, 64}) {
+      EXPECT_LT((direction_of_environment(x, y, 128) -
+                 light::environment_direction({(x + 0.5) / 256, (y + 0.5) / 128}))
+                    .norm(),
+                1e-12);
+    }
+  }
 }
 
 }  // namespace

@@ -117,6 +117,7 @@ TEST(Sggx, TexelGoesInAndComesOut) {
     const Vec3 axis = principal_axis(s, n);
     EXPECT_NEAR((axis - n).norm(), 0, 1e-7);
     EXPECT_NEAR((tangent_part(s, n) - brdf::roughness_matrix(lobe)).norm(), 0, 1e-9);
+    EXPECT_NEAR((tangent_part(3 * s, n) - brdf::roughness_matrix(lobe)).norm(), 0, 1e-9);
   }
 }
 

@@ -154,6 +154,19 @@ TEST(Bc1AndBc3, AreReasonable) {
   EXPECT_GT(psnr(opaque, encode_and_decode(BlockFormat::bc3, opaque, 64, 64), 4), 33);
 }
 
+TEST(CompressBlocks, WhatLiesBeyondTheEdgeIsTheEdge) {
+  // Noise, and a last column of one colour that has the last block for itself.
+  std::mt19937 generator(4);
+  Pixels rgba(5 * 4 * 4);
+  const Pixels colour{120, 30, 200, 255};
+  for (std::size_t i = 0; i < rgba.size(); ++i)
+    rgba[i] = i / 4 % 5 == 4 ? colour[i % 4] : static_cast<std::uint8_t>(generator() & 255);
+  const Pixels decoded = encode_and_decode(BlockFormat::bc7, rgba, 5, 4);
+  for (std::size_t y = 0; y < 4; ++y) {
+    for (std::size_t c = 0; c < 4; ++c) EXPECT_EQ(decoded[(y * 5 + 4) * 4 + c], colour[c]) << y;
+  }
+}
+
 TEST(CompressBlocks, SizesThatAreNoMultipleOfFour) {
   for (const auto& [w, h] : {std::pair{1, 1}, std::pair{5, 3}, std::pair{13, 7}, std::pair{2, 9}}) {
     Pixels rgba = picture(w, h);

@@ -211,6 +211,15 @@ TEST(LobeFiles, RoughnessMapsAndConstantsMayReplaceTheAnisotropyMap) {
   rough.read(texels);
   EXPECT_NEAR(brdf::roughness_from_matrix(texels[5].s).alpha_t, 0.25, 1e-4);
   EXPECT_EQ(texels[5].normal, Vec3::UnitZ());
+  // Nothing is rougher than 1.
+  std::vector<LobeTexel> roughest(64);
+  io::write_data(folder / "one.exr", Image(8, 8, 1, 1));
+  io::write_data(folder / "more.exr", Image(8, 8, 1, 1.5f));
+  LobeFileSource one(maps_of({}, {}, folder / "one.exr"));
+  one.read(roughest);
+  LobeFileSource more(maps_of({}, {}, folder / "more.exr"));
+  more.read(texels);
+  EXPECT_EQ(texels[5].s, roughest[5].s);
   io::write_data(folder / "normal.png", bumps(8, 8));
   LobeMapFiles files = maps_of(folder / "normal.png");
   files.constant = {0.3, 0.2, 0.5};
@@ -277,6 +286,19 @@ TEST(Author, EveryStyleComesBackThroughDecode) {
   gltf.amount.value = 1;
   gltf.vectors = files[0];
   check(gltf);
+}
+
+TEST(Author, ConstantAnglesAreTurnsWhateverAMapHolds) {
+  const TemporaryFolder folder;
+  AuthorInputs in;
+  in.along.value = 0.6;
+  in.across.value = 0.3;
+  in.rotation.value = 1 / 12.0;
+  in.turns_at_one = 0.25;
+  author_anisotropy(in, folder / "a.exr", AnisotropyEncoding::root);
+  decode_anisotropy_map(folder / "a.exr", AnisotropyEncoding::root, DecodeStyle::alphas, folder / "d.exr");
+  // Squares of the roughness, and thirty degrees of half a turn.
+  EXPECT_LT((io::read_data(folder / "d.exr").rgb(0, 0) - Vec3f(0.36f, 0.09f, 1 / 6.0f)).norm(), 1e-3f);
 }
 
 TEST(Author, BadInputIsNamed) {

@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 
 #include "brdf/random_directions.h"
+#include "sateen/brdf/conventions.h"
 #include "sateen/brdf/layered/layered.h"
 #include "sateen/core/direction.h"
 #include "sateen/core/error.h"
@@ -376,6 +377,53 @@ TEST(LobeMips, Ktx2ComesBackAsItWasFiltered) {
         }
       }
     }
+  }
+}
+
+TEST(LobeMips, EncodingAndCompressionAreThoseAskedFor) {
+  const test::TemporaryFolder folder;
+  const auto written = [&](const std::string& name, int zstd_level) {
+    Weave source;
+    const auto files = write_lobe_chain(source, folder / name, {},
+                                        {.kind = LobeOutput::Kind::ktx2,
+                                         .encoding = AnisotropyEncoding::correlation,
+                                         .zstd_level = zstd_level});
+    EXPECT_EQ(read_lobe_mips(files[0], files[1]).encoding, AnisotropyEncoding::correlation);
+    return std::filesystem::file_size(files[0]);
+  };
+  EXPECT_GT(written("plain.ktx2", 0), written("packed.ktx2", 19));
+}
+
+TEST(Mapped, MaterialFilesSayHowOftenMapsRepeatAndHowTheyAreMeant) {
+  const test::TemporaryFolder folder;
+  std::mt19937 random(6);
+  std::uniform_real_distribution<float> value(0.3f, 0.7f);
+  Image normals(4, 4, 3, 1);
+  for (int i = 0; i < 16; ++i) {
+    for (int c = 0; c < 2; ++c) normals.at(i % 4, i / 4, c) = value(random);
+  }
+  io::write_data(folder / "n.exr", normals);
+  std::ofstream(folder / "m.json") << R"({"model": "mapped", "normals": "n.exr", "green_down": true,
+      "roughness": [0.6, 0.3], "repeat": [2, 3], "f0": 0.6, "base": {"color": 0.1}})";
+  const auto read = scene::load_appearance(folder / "m.json");
+
+  LobeMapFiles files;
+  files.normals = folder / "n.exr";
+  files.normal_format.green_down = true;
+  files.constant = brdf::from_uv({0.6, 0.3, 0});
+  LobeFileSource source(files);
+  Maps maps{make_lobe_mips(source, {}, AnisotropyEncoding::root), {}};
+  maps.material.f0 = Vec3::Constant(0.6);
+  const auto once = mapped(maps, Vec3::Constant(0.1));
+  maps.material.repeat = {2, 3};
+  const auto often = mapped(maps, Vec3::Constant(0.1));
+  for (const Vec2& uv : {Vec2(0.1, 0.2), Vec2(0.45, 0.3)}) {
+    appearance::Surface surface;
+    surface.uv = uv;
+    const Vec3 expected = often->radiance(surface, lamps(), {});
+    EXPECT_LT((read->radiance(surface, lamps(), {}) - expected).norm(), 1e-6);
+    surface.uv = uv.cwiseProduct(Vec2(2, 3));
+    EXPECT_LT((once->radiance(surface, lamps(), {}) - expected).norm(), 1e-9);
   }
 }
 
