@@ -32,7 +32,19 @@ double wrap(double x, double period) {
 }
 
 Mat3 rotation_between(const Vec3& from, const Vec3& to) {
-  return Eigen::Quaterniond::FromTwoVectors(from, to).toRotationMatrix();
+  // In the plane of both, from and the direction across it turn by the angle between them.
+  const double cosine = from.dot(to);
+  Vec3 across = to - cosine * from;
+  const double sine = across.norm();
+  if (sine < 1e-15) {
+    Vec3 other;
+    frame_around(from, across, other);
+  } else {
+    // Where the sine is small, rounding has left some of `from` in it.
+    across = (across - across.dot(from) * from).normalized();
+  }
+  return Mat3::Identity() + sine * (across * from.transpose() - from * across.transpose()) +
+         (cosine - 1) * (from * from.transpose() + across * across.transpose());
 }
 
 Mat3 eye_frame(const Vec3& towards_eye) {

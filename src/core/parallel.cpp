@@ -6,7 +6,7 @@
 #include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
 
-#ifdef __SANITIZE_THREAD__
+#ifdef SATEEN_SANITIZED_THREADS
 extern "C" void __tsan_acquire(void* address);
 extern "C" void __tsan_release(void* address);
 #endif
@@ -18,7 +18,7 @@ namespace {
 /// before its return, and not in any order among themselves.
 class Order {
  public:
-#ifdef __SANITIZE_THREAD__
+#ifdef SATEEN_SANITIZED_THREADS
   Order() {
     __tsan_release(&begin_);
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "sateen/core/direction.h"
 
+#include <Eigen/Geometry>
 #include <random>
 
 #include <gtest/gtest.h>
@@ -91,6 +92,25 @@ TEST(Direction, WrapStaysBelowThePeriod) {
   EXPECT_DOUBLE_EQ(wrap(-0.25), 0.75);
   EXPECT_LT(wrap(-1e-18), 1);
   EXPECT_NEAR(wrap(1.3, 0.5), 0.3, 1e-15);
+}
+
+TEST(Direction, TheRotationBetweenDirectionsIsTheSmallest) {
+  std::mt19937 random(7);
+  std::normal_distribution<double> normal;
+  const auto direction = [&] { return Vec3(normal(random), normal(random), normal(random)).normalized(); };
+  for (int i = 0; i < 50; ++i) {
+    const Vec3 from = direction();
+    const Vec3 to = direction();
+    const Mat3 expected = Eigen::Quaterniond::FromTwoVectors(from, to).toRotationMatrix();
+    EXPECT_LT((rotation_between(from, to) - expected).norm(), 1e-11);
+    for (const double off : {0.0, 1e-14, 1e-12, 1e-7}) {
+      const Vec3 opposite = (-from + off * to).normalized();
+      const Mat3 rotation = rotation_between(from, opposite);
+      EXPECT_LT((rotation * from - opposite).norm(), 1e-14) << off;
+      EXPECT_NEAR(rotation.determinant(), 1, 1e-12) << off;
+      EXPECT_LT((rotation * rotation.transpose() - Mat3::Identity()).norm(), 1e-12) << off;
+    }
+  }
 }
 
 }  // namespace

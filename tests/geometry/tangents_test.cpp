@@ -239,7 +239,7 @@ TEST(Tangents, VerticesWithoutInformationTakeTheirNeighbours) {
   two.uvs.resize(7, Vec2f(0, 0));
   two.triangles.push_back({4, 6, 5});
   compute_tangents(two);
-  for (const std::size_t i : {4, 5, 6}) EXPECT_LT((tangent(two, i) - Vec3f::UnitX()).norm(), 1e-5f) << i;
+  for (const std::size_t i : {4u, 5u, 6u}) EXPECT_LT((tangent(two, i) - Vec3f::UnitX()).norm(), 1e-5f) << i;
 }
 
 TEST(Tangents, VerticesBetweenOppositeOnesTakeOneOfThem) {
@@ -249,7 +249,7 @@ TEST(Tangents, VerticesBetweenOppositeOnesTakeOneOfThem) {
   mesh.normals.assign(4, Vec3f::UnitZ());
   mesh.tangents = {{1, 0, 0, -1}, {0, 0, 0, 0}, {-1, 1e-6f, 0, -1}, {0, 0, 0, 0}};
   fill_tangents(mesh, {1, 0, 1, 0});
-  for (const std::size_t i : {1, 3}) {
+  for (const std::size_t i : {1u, 3u}) {
     EXPECT_NEAR(std::abs(mesh.tangents[i].x()), 1, 1e-3) << i;
     EXPECT_EQ(mesh.tangents[i].w(), -1) << i;
   }

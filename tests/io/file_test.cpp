@@ -41,7 +41,7 @@ std::string refusal(const std::function<void()>& call) {
 
 TEST(File, BytesComeBackWhateverTheirNumber) {
   const TemporaryFolder folder;
-  for (const std::size_t size : {0, 1, 4096, 65536, 300001}) {
+  for (const std::size_t size : {0u, 1u, 4096u, 65536u, 300001u}) {
     std::vector<std::byte> bytes(size);
     for (std::size_t i = 0; i < size; ++i) bytes[i] = static_cast<std::byte>(i * 7 % 251);
     write_bytes(folder / "ein Öhr 絹.bin", bytes);

@@ -472,7 +472,7 @@ TEST(MeshFile, ClaimedSizesAreCheckedBeforeMemoryIsAskedFor) {
   triangle.vertex_count = 1ull << 40;
   write_gltf(folder / "a.glb", triangle);
   EXPECT_THAT(error_of(folder / "a.glb"), HasSubstr("1099511627776 elements"));
-  for (const std::uint64_t count : {4, 5}) {
+  for (const std::uint64_t count : {4u, 5u}) {
     triangle.vertex_count = count;
     write_gltf(folder / "a.glb", triangle);
     EXPECT_THAT(error_of(folder / "a.glb"), HasSubstr("past its buffer view")) << count;

@@ -4,9 +4,10 @@
 cmake_minimum_required(VERSION 3.23)
 math(EXPR last "${CMAKE_ARGC} - 1")
 set(archive ${CMAKE_ARGV${last}})
-# A shared library may leave symbols of other libraries open, and so needs none of them here.
+# Types are compared when objects are joined to one; no code needs to be made of it.
 execute_process(
-  COMMAND ${COMPILER} -shared -O0 -flto=auto -Wodr -Wl,--whole-archive ${archive} -Wl,--no-whole-archive -o ${archive}.odr
+  COMMAND ${COMPILER} -r -nostdlib -O0 -flto -flinker-output=rel -Wodr
+          -Wl,--whole-archive ${archive} -Wl,--no-whole-archive -o ${archive}.odr
   RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE output)
 file(REMOVE ${archive}.odr)
 if(NOT result EQUAL 0)

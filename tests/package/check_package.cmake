@@ -19,12 +19,8 @@ file(WRITE ${WORK}/consumer/readme_picture.cpp "${CMAKE_MATCH_1}")
 file(WRITE ${WORK}/consumer/readme.cpp "${CMAKE_MATCH_2}")
 file(COPY ${CONSUMER}/ DESTINATION ${WORK}/consumer)
 
-set(flags)
-if(SANITIZE)
-  set(flags -D CMAKE_CXX_FLAGS=-fsanitize=${SANITIZE})
-endif()
 run(${CMAKE_COMMAND} -S ${WORK}/consumer -B ${WORK}/build -G Ninja -D CMAKE_PREFIX_PATH=${WORK}/prefix
-  -D CMAKE_CXX_COMPILER=${COMPILER} -D CMAKE_CXX_COMPILER_LAUNCHER=${LAUNCHER} ${flags})
+  -D CMAKE_CXX_COMPILER=${COMPILER} -D CMAKE_CXX_COMPILER_LAUNCHER=${LAUNCHER})
 run(${CMAKE_COMMAND} --build ${WORK}/build)
 run(${WORK}/build/consumer ${WORK}/texture.ktx2)
 run(${WORK}/build/stranger)

@@ -231,12 +231,11 @@ TEST(Changes, OpenGlStateIsPutBack) {
   glBindVertexArray(vertex_array);
   const auto state = [] {
     std::vector<GLint> values;
-    for (const GLenum name :
-         {GL_DRAW_FRAMEBUFFER_BINDING, GL_READ_FRAMEBUFFER_BINDING, GL_CURRENT_PROGRAM,
-          GL_VERTEX_ARRAY_BINDING, GL_ARRAY_BUFFER_BINDING, GL_ACTIVE_TEXTURE, GL_BLEND, GL_CULL_FACE,
-          GL_SCISSOR_TEST, GL_DEPTH_TEST, GL_DEPTH_WRITEMASK, GL_UNPACK_ALIGNMENT, GL_PACK_ALIGNMENT,
-          GL_DEPTH_FUNC, GL_RENDERBUFFER_BINDING}) {
-      glGetIntegerv(name, &values.emplace_back());
+    for (const int name : {GL_DRAW_FRAMEBUFFER_BINDING, GL_READ_FRAMEBUFFER_BINDING, GL_CURRENT_PROGRAM,
+                           GL_VERTEX_ARRAY_BINDING, GL_ARRAY_BUFFER_BINDING, GL_ACTIVE_TEXTURE, GL_BLEND,
+                           GL_CULL_FACE, GL_SCISSOR_TEST, GL_DEPTH_TEST, GL_DEPTH_WRITEMASK,
+                           GL_UNPACK_ALIGNMENT, GL_PACK_ALIGNMENT, GL_DEPTH_FUNC, GL_RENDERBUFFER_BINDING}) {
+      glGetIntegerv(static_cast<GLenum>(name), &values.emplace_back());
     }
     std::array<GLint, 4> four{};
     glGetIntegerv(GL_VIEWPORT, four.data());

@@ -35,7 +35,7 @@ inline SpherePixels sphere_pixels(int width, int height, const matcap::Disc& dis
 /// max over all points of n . point for the directions first, first + stride, ... by trying every point; the
 /// loops the compiler vectorises best. -FLT_MAX for the other directions.
 #if defined(__x86_64__)
-__attribute__((target("avx2"), optimize("no-fast-math")))
+__attribute__((target("avx2")))
 #endif
 inline std::vector<float>
 support_brute_force(const SpherePixels& directions, const std::vector<float>& px,

@@ -169,12 +169,8 @@ bool weave_direction(const RectifiedStack& stack, double& direction) {
   constexpr double kClear = 12;  // grain of cloth and sensor reached 5.5, weaves beside it 180
   if (best < kClear) return false;
   Vec2 sum(0, 0);
-  double weight = 0;
   for (int v = -2; v <= 2; ++v) {
-    for (int u = -2; u <= 2; ++u) {
-      sum += at(peak.x() + u, peak.y() + v) * Vec2(peak.x() + u, peak.y() + v);
-      weight += at(peak.x() + u, peak.y() + v);
-    }
+    for (int u = -2; u <= 2; ++u) sum += at(peak.x() + u, peak.y() + v) * Vec2(peak.x() + u, peak.y() + v);
   }
   // Rows run down; threads lie across the ripple they make.
   direction = wrap(std::atan2(-sum.y(), sum.x()) / kPi + 0.5) * kPi;

@@ -57,7 +57,7 @@ void bound() {
     const rlimit value{most, most};
     setrlimit(resource, &value);
   };
-#if !defined(__SANITIZE_ADDRESS__)  // which takes addresses by the terabyte and writes files of its own
+#ifndef SATEEN_SANITIZED  // sanitizers take addresses by the terabyte and write files of their own
   limit(RLIMIT_AS, kMostAddresses);
   limit(RLIMIT_FSIZE, 0);
 #endif
